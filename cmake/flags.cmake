@@ -1,0 +1,23 @@
+# One place for compiler flags. Results must not depend on the build type: no -ffast-math, no contraction of a*b+c,
+# so that release, debug and sanitizer builds make the same bits.
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+
+add_library(nephroid_flags INTERFACE)
+target_compile_options(nephroid_flags INTERFACE
+  -march=${NEPHROID_ARCH} -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(nephroid_flags INTERFACE -Wno-psabi -Wno-restrict)  # g++ 12 sees overlaps in std::string that are none
+endif()
+if(NEPHROID_SANITIZE)
+  target_compile_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE})
+endif()
+if(NEPHROID_COVERAGE)
+  target_compile_options(nephroid_flags INTERFACE --coverage)
+  target_link_options(nephroid_flags INTERFACE --coverage)
+endif()

@@ -1,0 +1,56 @@
+// The subcommands of `nephroid`: what each is asked for, and what it does. Only main.cpp knows how options are spelled, and
+// only this room prints.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::cli {
+
+/// docs/conventions.md, "Exit codes".
+enum ExitCode : int {
+    kGood = 0,
+    kInternal = 1,
+    kBadInput = 2,
+    kLimit = 3,
+    kIo = 4,
+    kInterrupted = 5,
+    kTainted = 6
+};
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::optional<int> spp;
+    std::string time, integrator, size, crop, color, passes, checkpoint, resume, log, stats;
+    std::vector<std::string> sets;
+    std::optional<std::uint64_t> seed;
+    int threads = 0;
+    float exposure = 0;
+    double checkpoint_every = 60;
+    bool aovs = false, quiet = false, full_float = false;
+};
+struct InfoOptions {
+    std::string scene;
+    bool json = false;
+};
+struct MergeOptions {
+    std::vector<std::string> films, outputs;
+    float exposure = 0;
+    bool full_float = false;
+};
+struct CompareOptions {
+    std::string a, b;
+    int bins = 16;
+    bool json = false;
+};
+
+// Each returns an exit code; they throw Error.
+int run(RenderOptions const& o);
+int run(InfoOptions const& o);
+int run(MergeOptions const& o);
+int run(CompareOptions const& o);
+
+}  // namespace nephroid::cli

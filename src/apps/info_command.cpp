@@ -1,0 +1,114 @@
+#include "commands.h"
+#include "read/read.h"
+#include "scene/match.h"
+#include "statistics.h"
+#include "world/world.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace nephroid::cli {
+
+namespace {
+
+std::string name_of(CameraKind const& c) {
+    return match(
+        c, [](PerspectiveCamera const&) { return "perspective"; },
+        [](OrthographicCamera const&) { return "orthographic"; },
+        [](SphericalCamera const&) { return "spherical"; });
+}
+std::string name_of(Integrator const& i) {
+    return match(
+        i, [](PathIntegrator const&) { return "path"; }, [](WhittedIntegrator const&) { return "whitted"; },
+        [](DirectIntegrator const&) { return "direct"; });
+}
+std::string name_of(Sampler const& s) {
+    return match(
+        s, [](SobolSampler const&) { return "sobol"; }, [](StratifiedSampler const&) { return "stratified"; },
+        [](IndependentSampler const&) { return "independent"; });
+}
+std::string name_of(MaterialKind const& m) {
+    return match(
+        m, [](DiffuseMaterial const&) { return "diffuse"; },
+        [](DielectricMaterial const&) { return "dielectric"; },
+        [](ConductorMaterial const&) { return "conductor"; },
+        [](ThinDielectricMaterial const&) { return "thindielectric"; },
+        [](InterfaceMaterial const&) { return "interface"; }, [](MixMaterial const&) { return "mix"; });
+}
+std::string name_of(LightKind const& l) {
+    return match(
+        l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
+        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; });
+}
+
+template <class List>
+std::map<std::string, int> tally(List const& list) {
+    std::map<std::string, int> counts;
+    for (auto const& x : list) ++counts[name_of(x.kind)];
+    return counts;
+}
+std::string text_of(std::map<std::string, int> const& counts) {
+    std::string t;
+    for (auto const& [name, n] : counts) t += fmt::format("{}{} {}", t.empty() ? "" : ", ", n, name);
+    return t.empty() ? "none" : t;
+}
+
+}  // namespace
+
+int run(InfoOptions const& o) {
+    World const world = compile(read_scene(o.scene));
+    Scene const& s = world.scene();
+    Settings const& settings = s.settings;
+    int const depth = match(settings.integrator, [](auto const& i) { return i.max_depth; });
+    if (o.json) {
+        nlohmann::json j;
+        j["scene_hash"] = world.scene_hash();
+        j["resolution"] = {settings.film.resolution.x, settings.film.resolution.y};
+        j["camera"] = name_of(s.camera.kind);
+        j["integrator"] = name_of(settings.integrator);
+        j["max_depth"] = depth;
+        j["sampler"] = name_of(settings.sampler);
+        j["samples_per_pixel"] = settings.spp;
+        j["materials"] = tally(s.materials);
+        j["lights"] = tally(s.lights);
+        j["triangles"] = world.counts().triangles;
+        j["objects"] = world.counts().objects;
+        j["instances"] = world.counts().instances;
+        j["bytes"] = world.memory().total();
+        j["notes"] = nlohmann::json::array();
+        for (Note const& n : s.notes) j["notes"].push_back({{"where", s.locate(n.where)}, {"text", n.text}});
+        fmt::print("{}\n", j.dump(2));
+        return kGood;
+    }
+    WorldCounts const& c = world.counts();
+    WorldMemory const m = world.memory();
+    Bounds3 const& b = world.bounds();
+    fmt::print("{}\n", o.scene);
+    fmt::print("film        {} x {} pixels, {}\n", settings.film.resolution.x, settings.film.resolution.y,
+               settings.color == ColorMode::Rgb ? "rgb" : "spectral");
+    fmt::print("camera      {}\n", name_of(s.camera.kind));
+    fmt::print("integrator  {}, maxdepth {}; sampler {}, {} samples a pixel\n", name_of(settings.integrator),
+               depth, name_of(settings.sampler), settings.spp);
+    fmt::print("geometry    {} objects: {} triangles in meshes, {} analytic; {} instances\n", c.objects,
+               c.triangles, c.analytic, c.instances);
+    if (!b.empty())
+        fmt::print("bounds      ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})\n", b.lo.x, b.lo.y, b.lo.z,
+                   b.hi.x, b.hi.y, b.hi.z);
+    fmt::print("materials   {}\n", text_of(tally(s.materials)));
+    fmt::print("textures    {}, {} pictures\n", s.textures.size(), s.images.size());
+    fmt::print("lights      {}; {} to choose from in all\n", text_of(tally(s.lights)), c.lights);
+    fmt::print("memory      {}: meshes {}, acceleration {}, images {}, lights {}\n", bytes_text(m.total()),
+               bytes_text(m.meshes), bytes_text(m.bvh), bytes_text(m.images), bytes_text(m.lights));
+    fmt::print("scene hash  {}\n", world.scene_hash());
+    if (s.notes.empty()) {
+        fmt::print("notes       none: everything is rendered as written\n");
+    } else {
+        fmt::print("notes       {}:\n", s.notes.size());
+        for (Note const& n : s.notes) fmt::print("  {}: {}\n", s.locate(n.where), n.text);
+    }
+    return kGood;
+}
+
+}  // namespace nephroid::cli

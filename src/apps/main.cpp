@@ -1,0 +1,175 @@
+// nephroid: the command line.
+#include "commands.h"
+#include "math/error.h"
+#include "overrides.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace nephroid::cli {
+namespace {
+
+/// Whole numbers from `least`; what is wrong is said in words.
+CLI::Validator whole_number(std::int64_t least) {
+    return {[least](std::string& text) {
+                std::uint64_t v = 0;
+                auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
+                bool const good = r.ec == std::errc{} && r.ptr == text.data() + text.size() &&
+                                  v >= static_cast<std::uint64_t>(least);
+                return good ? std::string()
+                            : fmt::format("\"{}\" is not a whole number from {}", text, least);
+            },
+            "", "WHOLE"};
+}
+CLI::Validator finite_number(bool positive) {
+    return {[positive](std::string& text) {
+                double v = 0;
+                auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
+                bool const good = r.ec == std::errc{} && r.ptr == text.data() + text.size() &&
+                                  std::isfinite(v) && (!positive || v > 0);
+                return good ? std::string()
+                            : fmt::format("\"{}\" is not a number{}", text, positive ? " above 0" : "");
+            },
+            "", "NUMBER"};
+}
+
+CLI::App const* declare(CLI::App& app, RenderOptions& o) {
+    app.add_option("scene", o.scene, "scene file")->required();
+    app.add_option("-o,--output", o.outputs,
+                   "picture to write, once or more: .exr .png .jpg .pfm .hdr, or .film.exr for the film "
+                   "itself (mergeable)")
+        ->allow_extra_args(false);
+    app.add_option("--spp", o.spp, "samples per pixel, that is, passes")->check(whole_number(1));
+    app.add_option("--time", o.time, "stop after this long: 90s, 5m, 2h");
+    app.add_option("--integrator", o.integrator, "path, whitted or direct");
+    app.add_option("--set", o.sets, "key=value: any setting of the scene; see below")
+        ->allow_extra_args(false);
+    app.add_option("--size", o.size, "WxH, resolution in pixels");
+    app.add_option("--crop", o.crop, "x0,y0,x1,y1: render only these pixels");
+    app.add_option("--color", o.color, "rgb or spectral")->check(CLI::IsMember({"rgb", "spectral"}));
+    app.add_option("--seed", o.seed, "seed of all random numbers")->check(whole_number(0));
+    app.add_option("--threads", o.threads, "worker threads; the picture does not depend on it")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--passes", o.passes, "A:B, render passes A to B-1 only");
+    app.add_option("--checkpoint", o.checkpoint, "write the film here now and then, and at the end");
+    app.add_option("--checkpoint-every", o.checkpoint_every, "seconds between checkpoints")
+        ->check(finite_number(true));
+    app.add_option("--resume", o.resume, "go on from this checkpoint (or film)");
+    app.add_option("--exposure", o.exposure, "stops, for 8-bit pictures")->check(finite_number(false));
+    app.add_flag("--aovs", o.aovs,
+                 "layers of the first hit in EXR files: albedo, normals, position, depth, material");
+    app.add_flag("--float", o.full_float, "EXR channels as 32-bit floats");
+    app.add_flag("--quiet", o.quiet, "print errors and results only");
+    app.add_option("--log", o.log, "json: progress and statistics as JSON lines on stderr")
+        ->check(CLI::IsMember({"json", "text"}));
+    app.add_option("--stats", o.stats, "write statistics as JSON to this file");
+    app.footer("Settings for --set:\n" + override_help());
+    return &app;
+}
+
+CLI::App const* declare(CLI::App& app, InfoOptions& o) {
+    app.add_option("scene", o.scene, "scene file")->required();
+    app.add_flag("--json", o.json, "print JSON");
+    return &app;
+}
+
+CLI::App const* declare(CLI::App& app, MergeOptions& o) {
+    app.add_option("films", o.films, "films (.film.exr) of disjoint passes of the same render")->required();
+    app.add_option("-o,--output", o.outputs, "picture or film to write, once or more")
+        ->allow_extra_args(false)
+        ->required();
+    app.add_option("--exposure", o.exposure, "stops, for 8-bit pictures")->check(finite_number(false));
+    app.add_flag("--float", o.full_float, "EXR channels as 32-bit floats");
+    return &app;
+}
+
+CLI::App const* declare(CLI::App& app, CompareOptions& o) {
+    app.add_option("a", o.a, "picture")->required();
+    app.add_option("b", o.b, "picture to compare with: the reference")->required();
+    app.add_option("--bins", o.bins, "side of the blocks for the binned error")->check(whole_number(1));
+    app.add_flag("--json", o.json, "print JSON");
+    return &app;
+}
+
+}  // namespace
+}  // namespace nephroid::cli
+
+int main(int argc, char** argv) {
+    using namespace nephroid;
+    using namespace nephroid::cli;
+    CLI::App app{
+        "nephroid: a physically based renderer whose passes are reproducible to the bit.\n"
+        "A render is a sum of independent passes; films of different passes merge into one."};
+    app.set_version_flag("--version", "nephroid 0.1.0");
+    app.require_subcommand(1);
+    app.footer(
+        "Examples:\n"
+        "  nephroid render scene.pbrt -o picture.exr -o picture.png --spp 256\n"
+        "  nephroid render scene.pbrt --passes 0:64 -o a.film.exr    # one machine …\n"
+        "  nephroid render scene.pbrt --passes 64:128 -o b.film.exr  # … and another\n"
+        "  nephroid merge a.film.exr b.film.exr -o picture.exr\n"
+        "  nephroid info scene.pbrt\n"
+        "  nephroid compare a.exr b.exr\n"
+        "Exit codes: 0 good, 1 internal error, 2 bad input or usage, 3 a limit was hit, 4 I/O, 5 interrupted "
+        "but resumable,\n"
+        "6 finished but samples that were not finite had to be dropped.");
+
+    std::vector<std::pair<CLI::App const*, std::function<int()>>> commands;
+    RenderOptions render;
+    InfoOptions info;
+    MergeOptions merge;
+    CompareOptions compare;
+    commands.emplace_back(
+        declare(*app.add_subcommand("render", "render a scene (.pbrt, .pbrt.gz, .ply, .obj)"), render),
+        [&] { return run(render); });
+    commands.emplace_back(
+        declare(
+            *app.add_subcommand(
+                "info",
+                "say what is in a scene, and everything that was approximated or ignored, with file:line"),
+            info),
+        [&] { return run(info); });
+    commands.emplace_back(
+        declare(*app.add_subcommand("merge", "add up films of disjoint passes of the same render"), merge),
+        [&] { return run(merge); });
+    commands.emplace_back(
+        declare(*app.add_subcommand("compare", "say how far apart two pictures are"), compare),
+        [&] { return run(compare); });
+
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& e) {
+        int const code = app.exit(e);
+        return code == 0 ? kGood : kBadInput;
+    }
+    try {
+        for (auto const& [sub, command] : commands)
+            if (sub->parsed()) return command();
+    } catch (Error const& e) {
+        fmt::print(stderr, "nephroid: {}\n", e.what());
+        switch (e.kind()) {
+            case ErrorKind::Input:
+                return kBadInput;
+            case ErrorKind::Limit:
+                return kLimit;
+            case ErrorKind::Io:
+                return kIo;
+        }
+    } catch (std::bad_alloc const&) {
+        fmt::print(stderr, "nephroid: out of memory\n");
+        return kLimit;
+    } catch (std::exception const& e) {
+        fmt::print(stderr, "nephroid: internal error: {}\n", e.what());
+    }
+    return kInternal;
+}

@@ -1,0 +1,27 @@
+// What a run did: rays, memory, time. A short table for people, JSON for programs.
+#pragma once
+
+#include "render/render.h"
+#include "world/world.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace nephroid::cli {
+
+struct RunStatistics {
+    double read_seconds = 0, compile_seconds = 0, render_seconds = 0, write_seconds = 0;
+    RayStats rays;
+    WorldMemory memory;
+    WorldCounts counts;
+    std::size_t film_bytes = 0;
+    std::uint64_t passes = 0, samples = 0, dropped = 0;
+    int threads = 0;
+};
+
+std::string table(RunStatistics const& s);
+nlohmann::json to_json(RunStatistics const& s);
+std::string bytes_text(std::size_t bytes);
+
+}  // namespace nephroid::cli

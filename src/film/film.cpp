@@ -1,0 +1,112 @@
+#include "film/film.h"
+
+#include "math/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+void add_scaled(std::array<double, 3>& sum, Vec3 v, double w) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += w * static_cast<double>(v[static_cast<int>(c)]);
+}
+void add(std::array<double, 3>& sum, std::array<double, 3> const& other) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += other[c];
+}
+
+void add(PixelSums& a, PixelSums const& b) {
+    auto const& [rgb, weight, square, cross, weight_square, samples] =
+        b;  // a new field does not compile here
+    add(a.rgb, rgb);
+    a.weight += weight;
+    add(a.square, square);
+    add(a.cross, cross);
+    a.weight_square += weight_square;
+    a.samples += samples;
+}
+
+void add(AovSums& a, AovSums const& b) {
+    auto const& [albedo, shading_normal, geometric_normal, position, depth, hits, pass, material] = b;
+    add(a.albedo, albedo);
+    add(a.shading_normal, shading_normal);
+    add(a.geometric_normal, geometric_normal);
+    add(a.position, position);
+    a.depth += depth;
+    a.hits += hits;
+    if (pass < a.material_pass) a.material_pass = pass, a.material = material;
+}
+
+[[noreturn]] void refuse(std::string const& message) {
+    throw Error(ErrorKind::Input, "cannot merge the films: " + message);
+}
+
+void require_same_render(FilmIdentity const& a, FilmIdentity const& b) {
+    if (a.scene_hash != b.scene_hash) refuse("they show different scenes");
+    if (a.settings_hash != b.settings_hash) refuse("they were rendered with different settings");
+    if (a.seed != b.seed)
+        refuse("they were rendered with seeds " + std::to_string(a.seed) + " and " + std::to_string(b.seed));
+    if (!(a == b)) refuse("they belong to different renders");
+}
+
+}  // namespace
+
+Film::Film(Vec2i resolution, std::array<int, 4> crop, bool with_aovs, FilmIdentity identity)
+    : resolution_(resolution), crop_(crop), identity_(std::move(identity)) {
+    auto const [x0, x1, y0, y1] = crop;
+    if (!(0 <= x0 && x0 < x1 && x1 <= resolution.x && 0 <= y0 && y0 < y1 && y1 <= resolution.y))
+        throw Error(ErrorKind::Input, "the film's crop window is empty or leaves the picture: correct it");
+    std::int64_t const pixels = std::int64_t{width()} * height();
+    if (pixels > kMaxPixels) throw Error(ErrorKind::Limit, "the film has more than 2^28 pixels: crop it");
+    pixels_.resize(static_cast<std::size_t>(pixels));
+    if (with_aovs) aovs_.resize(static_cast<std::size_t>(pixels));
+}
+
+std::size_t Film::bytes() const {
+    return pixels_.size() * sizeof(PixelSums) + aovs_.size() * sizeof(AovSums);
+}
+
+void Film::add_aov(int x, int y, std::uint64_t pass, AovSample const& sample, float weight) {
+    bool const finite = std::isfinite(weight) && is_finite(sample.albedo) &&
+                        is_finite(sample.shading_normal) && is_finite(sample.geometric_normal) &&
+                        is_finite(sample.position) && std::isfinite(sample.depth);
+    if (!finite) return;
+    AovSums& sums = aov(x, y);
+    double const w = static_cast<double>(weight);
+    add_scaled(sums.albedo, sample.albedo, w);
+    add_scaled(sums.shading_normal, sample.shading_normal, w);
+    add_scaled(sums.geometric_normal, sample.geometric_normal, w);
+    if (!sample.hit) return;
+    add_scaled(sums.position, sample.position, std::abs(w));
+    sums.depth += std::abs(w) * static_cast<double>(sample.depth);
+    sums.hits += std::abs(w);
+    if (pass < sums.material_pass) sums.material_pass = pass, sums.material = sample.material;
+}
+
+void merge_into(Film& a, Film const& b) {
+    if (b.pixels_.empty()) return;
+    if (a.pixels_.empty()) {
+        a = b;
+        return;
+    }
+    require_same_render(a.identity_, b.identity_);
+    if (a.resolution_ != b.resolution_ || a.crop_ != b.crop_)
+        refuse("they cover different parts of the picture");
+    if (a.has_aovs() != b.has_aovs()) refuse("only one of them has the layers of the first hit");
+    PassSet const common = a.passes_.intersection(b.passes_);
+    if (!common.empty()) refuse("both hold passes " + common.text() + ", and a pass counts once");
+    for (std::size_t i = 0; i < a.pixels_.size(); ++i) add(a.pixels_[i], b.pixels_[i]);
+    for (std::size_t i = 0; i < a.aovs_.size(); ++i) add(a.aovs_[i], b.aovs_[i]);
+    a.passes_.insert(b.passes_);
+    a.dropped_ += b.dropped_;
+}
+
+Film merge(Film a, Film const& b) {
+    merge_into(a, b);
+    return a;
+}
+
+}  // namespace nephroid

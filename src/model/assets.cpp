@@ -1,0 +1,114 @@
+#include "model/assets.h"
+
+#include "image/read.h"
+#include "scene/match.h"
+#include "spectrum/color.h"
+
+#include <functional>
+
+namespace nephroid {
+
+namespace {
+
+std::optional<Encoding> encoding_of(Scene const& scene, ImageFile const& file) {
+    if (file.encoding.empty()) return std::nullopt;
+    if (file.encoding == "linear") return Encoding::linear();
+    if (file.encoding == "sRGB") return Encoding::srgb();
+    if (file.encoding.rfind("gamma ", 0) == 0) {
+        float const g = std::strtof(file.encoding.c_str() + 6, nullptr);
+        if (g > 0.0f && std::isfinite(g)) return Encoding::power(g);
+    }
+    scene.fail(file.where, "unknown encoding \"" + file.encoding + "\"; use linear, sRGB or gamma <number>");
+}
+
+Transform mapping_transform(Scene const& scene, SourceLocation where, Mat4 const& m) {
+    auto const t = make_transform(m);
+    if (!t) scene.fail(where, "the texture's transform cannot be inverted; remove a scale by 0");
+    return *t;
+}
+
+}  // namespace
+
+Assets::Assets(Scene const& scene) : scene_(&scene) {
+    Spd const white = RgbIlluminantSpd{{1, 1, 1}};
+    neutral_ = spectra_.compile(white, SpectrumRole::Illuminant)
+                   .scaled(static_cast<float>(1.0 / photometric(white)));
+    for (ImageFile const& file : scene.images) {
+        auto const encoding = encoding_of(scene, file);
+        try {
+            Image image = read_image(file.path, encoding);
+            sanitize(image);
+            pyramids_.emplace_back(std::move(image));
+        } catch (Error const& e) {
+            throw Error(e.kind(), scene.locate(file.where) + ": " + e.what());
+        }
+    }
+    for (Texture const& texture : scene.textures) {
+        TextureData d;
+        auto const mapped = [&](TextureMapping const& mapping) {
+            match(
+                mapping, [](UvMapping const&) {},
+                [&](auto const& m) {
+                    d.mapping = mapping_transform(scene, texture.where, m.world_to_texture);
+                });
+        };
+        match(
+            texture.kind,
+            [&](ConstantFloatTexture const& t) {
+                d.value = t.value;
+                d.flat = true;
+            },
+            [&](ConstantSpectrumTexture const& t) {
+                try {
+                    d.spectrum = spectra_.compile(t.value, t.role);
+                } catch (Error const& e) {
+                    throw Error(e.kind(), scene.locate(texture.where) + ": " + e.what());
+                }
+                d.flat = true;
+            },
+            [&](ImageTexture const& t) { mapped(t.mapping); },
+            [&](CheckerboardTexture const& t) {
+                if (t.dimension == 3) {
+                    d.mapping = mapping_transform(scene, texture.where, t.world_to_texture);
+                } else {
+                    mapped(t.mapping);
+                }
+            },
+            [](ScaleTexture const&) {}, [](MixTexture const&) {});
+        textures_.push_back(d);
+    }
+    auto const needs_point = [&](TextureId id) { return id.valid() && !textures_[id.value].flat; };
+    std::function<bool(MaterialId)> textured = [&](MaterialId id) -> bool {
+        return match(
+            scene[id].kind, [&](DiffuseMaterial const& m) { return needs_point(m.reflectance); },
+            [&](ConductorMaterial const& m) {
+                return needs_point(m.eta) || needs_point(m.k) || needs_point(m.reflectance);
+            },
+            [&](MixMaterial const& m) { return needs_point(m.amount) || textured(m.a) || textured(m.b); },
+            [](auto const&) { return false; });
+    };
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        Material const& material = scene.materials[i];
+        MaterialData d;
+        auto const compile_eta = [&](Spd const& eta) {
+            try {
+                d.eta = spectra_.compile(eta, SpectrumRole::Unbounded);
+            } catch (Error const& e) {
+                throw Error(e.kind(), scene.locate(material.where) + ": " + e.what());
+            }
+        };
+        match(
+            material.kind, [&](DielectricMaterial const& m) { compile_eta(m.eta); },
+            [&](ThinDielectricMaterial const& m) { compile_eta(m.eta); }, [](auto const&) {});
+        d.textured = textured(MaterialId{i});
+        materials_.push_back(d);
+    }
+}
+
+std::size_t Assets::image_bytes() const {
+    std::size_t n = 0;
+    for (Pyramid const& p : pyramids_) n += p.bytes();
+    return n;
+}
+
+}  // namespace nephroid

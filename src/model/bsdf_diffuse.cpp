@@ -1,0 +1,27 @@
+// Lambert's law (PBRT 4th ed., 9.2).
+#include "model/bsdf.h"
+#include "sampling/warp.h"
+
+namespace nephroid {
+
+float pdf(DiffuseBsdf const&, Vec3 wo, Vec3 wi, HemisphereSampling how) {
+    if (!same_hemisphere(wo, wi)) return 0.0f;
+    return how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(abs_cos_theta(wi))
+                                             : kUniformHemispherePdf;
+}
+
+std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, Mode mode,
+                                 HemisphereSampling how) {
+    if (wo.z == 0.0f) return std::nullopt;
+    Vec3 wi =
+        how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u) : square_to_uniform_hemisphere(u);
+    if (wo.z < 0.0f) wi.z = -wi.z;
+    BsdfSample s;
+    s.wi = wi;
+    s.pdf = pdf(b, wo, wi, how);
+    if (!(s.pdf > 0.0f)) return std::nullopt;
+    s.f = evaluate(b, wo, wi, mode);
+    return s;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,49 @@
+// What evaluating textures and materials needs beside the scene's own structs: compiled spectra and picture pyramids.
+// Derived once when the world is compiled; lies beside the Scene, indexed by the same ids.
+#pragma once
+
+#include "image/pyramid.h"
+#include "scene/scene.h"
+#include "spectrum/runtime.h"
+
+#include <vector>
+
+namespace nephroid {
+
+struct TextureData {
+    RuntimeSpectrum spectrum;  // of a ConstantSpectrumTexture
+    float value = 0;           // of a ConstantFloatTexture
+    Transform mapping;         // world -> texture space, where the mapping has one
+    bool flat = false;         // a constant: needs no coordinates
+};
+struct MaterialData {
+    RuntimeSpectrum eta;    // of a (thin) dielectric
+    bool textured = false;  // needs uv and tangents at the hit
+};
+
+class Assets {
+  public:
+    Assets() = default;
+    /// Compiles every spectrum and reads every picture. Throws Error with file:line. The scene must outlive this and stay put.
+    explicit Assets(Scene const& scene);
+
+    [[nodiscard]] Scene const& scene() const { return *scene_; }
+    [[nodiscard]] TextureData const& data(TextureId id) const { return textures_[id.value]; }
+    [[nodiscard]] MaterialData const& data(MaterialId id) const { return materials_[id.value]; }
+    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pyramids_[id.value]; }
+    /// White light of luminance 1 (D65): what turns an albedo into a colour.
+    [[nodiscard]] RuntimeSpectrum const& neutral_illuminant() const { return neutral_; }
+    SpectrumStore& spectra() { return spectra_; }
+    [[nodiscard]] std::size_t image_bytes() const;
+    [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes(); }
+
+  private:
+    Scene const* scene_ = nullptr;
+    SpectrumStore spectra_;
+    RuntimeSpectrum neutral_;
+    std::vector<TextureData> textures_;
+    std::vector<MaterialData> materials_;
+    std::vector<Pyramid> pyramids_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,58 @@
+#include "model/material.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& at, float u) {
+    while (auto const* mix = std::get_if<MixMaterial>(&assets.scene()[id].kind)) {
+        float const amount = clamp(evaluate_float(assets, mix->amount, at), 0.0f, 1.0f);
+        if (u < amount) {
+            id = mix->b;
+            u = std::fmin(u / amount, kOneMinusEpsilon);
+        } else {
+            id = mix->a;
+            u = std::fmin((u - amount) / (1.0f - amount), kOneMinusEpsilon);
+        }
+    }
+    return id;
+}
+
+namespace {
+
+/// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.
+Spectrum index_lanes(RuntimeSpectrum const& eta, Wavelengths const& lambda) {
+    if (lambda.is_rgb()) return Spectrum(eta.rgb().y);
+    return eta.sample(lambda);
+}
+
+}  // namespace
+
+std::optional<Bsdf> make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at,
+                              Wavelengths const& lambda) {
+    return match(
+        assets.scene()[id].kind,
+        [&](DiffuseMaterial const& m) -> std::optional<Bsdf> {
+            return DiffuseBsdf{clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f)};
+        },
+        [&](DielectricMaterial const&) -> std::optional<Bsdf> {
+            RuntimeSpectrum const& eta = assets.data(id).eta;
+            return DielectricBsdf{index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant()};
+        },
+        [&](ThinDielectricMaterial const&) -> std::optional<Bsdf> {
+            return ThinDielectricBsdf{index_lanes(assets.data(id).eta, lambda)};
+        },
+        [&](ConductorMaterial const& m) -> std::optional<Bsdf> {
+            if (m.reflectance.valid()) {
+                // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
+                Spectrum const r = clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 0.9999f);
+                return ConductorBsdf{Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))};
+            }
+            return ConductorBsdf{evaluate_spectrum(assets, m.eta, at, lambda),
+                                 evaluate_spectrum(assets, m.k, at, lambda)};
+        },
+        [](InterfaceMaterial const&) -> std::optional<Bsdf> { return std::nullopt; },
+        [](MixMaterial const&) -> std::optional<Bsdf> { return std::nullopt; });
+}
+
+}  // namespace nephroid

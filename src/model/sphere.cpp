@@ -1,0 +1,98 @@
+// Sphere about the origin, poles on z, cut in z and phi. Parametrisation of PBRT 4th ed., 6.2.
+#include "sampling/warp.h"
+#include "shape_common.h"
+
+namespace nephroid {
+
+namespace {
+struct Cut {
+    float z_lo, z_hi, theta_lo, theta_hi;  // theta of z_lo (larger) and of z_hi
+    bool full_z;
+};
+Cut cut_of(Sphere const& s) {
+    float const lo = clamp(std::fmin(s.z_min, s.z_max), -s.radius, s.radius);
+    float const hi = clamp(std::fmax(s.z_min, s.z_max), -s.radius, s.radius);
+    return {lo, hi, std::acos(clamp(lo / s.radius, -1.0f, 1.0f)),
+            std::acos(clamp(hi / s.radius, -1.0f, 1.0f)), lo <= -s.radius && hi >= s.radius};
+}
+}  // namespace
+
+Bounds3 bounds(Sphere const& s) {
+    Cut const c = cut_of(s);
+    Bounds3 b;
+    b.add({-s.radius, -s.radius, c.z_lo});
+    b.add({s.radius, s.radius, c.z_hi});
+    return b;
+}
+
+std::optional<ShapeHit> intersect(Sphere const& s, std::uint32_t, Ray3d const& ray, double t_min,
+                                  double t_max) {
+    // |o + t d|^2 = r^2. The discriminant by the vector from the centre to the ray's closest point, which does not cancel
+    // for far spheres (PBRT 4th ed., 6.8.3); the sign of c tells on which side of the sphere the origin is.
+    double const r = s.radius;
+    double const a = detail::dot3(ray.d, ray.d);
+    double const h = detail::dot3(ray.d, ray.o);
+    double const len_o = std::sqrt(detail::dot3(ray.o, ray.o));
+    double const c = (len_o - r) * (len_o + r);
+    auto const v = detail::at(ray, -h / a);
+    double const len_v = std::sqrt(detail::dot3(v, v));
+    double t[2];
+    if (!detail::solve_quadratic(a, h, c, a * (r - len_v) * (r + len_v), t[0], t[1])) return std::nullopt;
+    Cut const cut = cut_of(s);
+    for (double const ti : t) {
+        if (!(ti > t_min && ti < t_max)) continue;
+        auto const p = detail::at(ray, ti);
+        if (!cut.full_z && (p[2] < cut.z_lo || p[2] > cut.z_hi)) continue;
+        if (s.phi_max < kTwoPi && detail::azimuth(p[0], p[1]) > s.phi_max) continue;
+        return ShapeHit{ti, 0, 0, 0};
+    }
+    return std::nullopt;
+}
+
+SurfacePoint surface(Sphere const& s, ShapeHit const&, Vec3 p) {
+    Cut const cut = cut_of(s);
+    p *= s.radius / length(p);
+    if (p.x == 0.0f && p.y == 0.0f) p.x = 1e-5f * s.radius;  // the pole has no azimuth: pick one
+    SurfacePoint r;
+    r.p = p;
+    r.p_error = gamma_bound(5) * abs(p);
+    r.ng = normalize(p);
+    r.ns = r.ng;
+    float const phi = detail::azimuth(p.x, p.y);
+    float const theta = std::acos(clamp(p.z / s.radius, -1.0f, 1.0f));
+    float const span = cut.theta_hi - cut.theta_lo;
+    r.uv = {phi / s.phi_max, (theta - cut.theta_lo) / span};
+    float const rho = std::sqrt(p.x * p.x + p.y * p.y);
+    float const cos_phi = p.x / rho;
+    float const sin_phi = p.y / rho;
+    r.dpdu = {-s.phi_max * p.y, s.phi_max * p.x, 0};
+    r.dpdv = span * Vec3{p.z * cos_phi, p.z * sin_phi, -rho};
+    return r;
+}
+
+std::uint32_t part_count(Sphere const&) { return 1; }
+float part_area(Sphere const& s, std::uint32_t) {
+    Cut const c = cut_of(s);
+    return s.phi_max * s.radius * (c.z_hi - c.z_lo);  // Archimedes
+}
+
+ShapeSample sample(Sphere const& s, std::uint32_t part, Vec2 u) {
+    // Uniform in z and phi is uniform by area (Archimedes). u.x = 0 is the top, as square_to_uniform_sphere has it.
+    Cut const c = cut_of(s);
+    float const z = c.z_hi - u.x * (c.z_hi - c.z_lo);
+    float const rho = c.full_z ? 2.0f * s.radius * safe_sqrt(u.x * (1.0f - u.x))
+                               : safe_sqrt((s.radius - z) * (s.radius + z));
+    float const phi = u.y * s.phi_max;
+    Vec3 p{rho * std::cos(phi), rho * std::sin(phi), z};
+    p *= s.radius / length(p);
+    ShapeSample r;
+    r.p = p;
+    r.p_error = gamma_bound(5) * abs(p);
+    r.n = normalize(p);
+    float const theta = std::acos(clamp(p.z / s.radius, -1.0f, 1.0f));
+    r.uv = {u.y, (theta - c.theta_lo) / (c.theta_hi - c.theta_lo)};
+    r.pdf_area = 1.0f / part_area(s, part);
+    return r;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,29 @@
+#include "color_space.h"
+
+#include "spectrum/color.h"
+
+namespace nephroid {
+
+std::optional<FileColorSpace> file_color_space(std::string_view name) {
+    if (name == "srgb") return FileColorSpace::Srgb;
+    if (name == "dci-p3") return FileColorSpace::DciP3;
+    if (name == "rec2020") return FileColorSpace::Rec2020;
+    if (name == "aces2065-1") return FileColorSpace::Aces2065;
+    return std::nullopt;
+}
+
+Vec3 to_srgb(Vec3 rgb, FileColorSpace from) {
+    switch (from) {
+        case FileColorSpace::Srgb:
+            break;
+        case FileColorSpace::DciP3:
+            return convert_rgb(rgb, kDciP3, kSrgb);
+        case FileColorSpace::Rec2020:
+            return convert_rgb(rgb, kRec2020, kSrgb);
+        case FileColorSpace::Aces2065:
+            return convert_rgb(rgb, kAces2065, kSrgb);
+    }
+    return rgb;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,54 @@
+#include "context.h"
+
+#include "bytes.h"
+
+#include <system_error>
+
+namespace nephroid {
+
+std::uint32_t Context::add_file(std::string shown, std::filesystem::path folder) {
+    scene.files.push_back(std::move(shown));
+    folders_.push_back(std::move(folder));
+    return static_cast<std::uint32_t>(scene.files.size() - 1);
+}
+
+std::filesystem::path Context::resolve(SourceLocation where, std::string const& name) const {
+    std::filesystem::path const path = name;
+    if (path.is_absolute() || where.file >= folders_.size()) return path;
+    auto const beside = (folders_[where.file] / path).lexically_normal();
+    if (where.file == 0) return beside;
+    std::error_code ignored;
+    if (std::filesystem::exists(beside, ignored)) return beside;
+    auto const below_first = (folders_[0] / path).lexically_normal();
+    return std::filesystem::exists(below_first, ignored) ? below_first : beside;
+}
+
+std::string Context::read_named(SourceLocation where, std::string_view what,
+                                std::filesystem::path const& path) const {
+    auto file = read_bytes(path);
+    if (file.problem.empty()) return std::move(file.bytes);
+    auto const message =
+        scene.locate(where) + ": " + std::string(what) + " \"" + path.string() + "\" " + file.problem;
+    throw Error(file.too_long ? ErrorKind::Limit : ErrorKind::Input, message);
+}
+
+void Context::note(SourceLocation where, std::string const& text) {
+    constexpr int kSayAtMost = 5;
+    auto& r = repeats_[text];
+    if (r.said < kSayAtMost) {
+        ++r.said;
+        scene.note(where, text);
+    } else {
+        ++r.dropped;
+        r.last = where;
+    }
+}
+
+void Context::finish_notes() {
+    for (auto const& [text, r] : repeats_)
+        if (r.dropped > 0)
+            scene.note(r.last, text + " (the last of " + std::to_string(r.dropped) + " more such notes)");
+    repeats_.clear();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,101 @@
+#include "lights.h"
+
+#include "spectra.h"
+
+#include <array>
+
+namespace nephroid {
+
+namespace {
+
+ImageId image_of(Params& p, EnvironmentMapping* mapping = nullptr) {
+    auto const name = p.string("filename", "");
+    if (mapping)
+        *mapping = std::array{
+            EnvironmentMapping::BySize, EnvironmentMapping::EqualArea,
+            EnvironmentMapping::LatLong}[p.choice("mapping", {"bysize", "equalarea", "latlong"}, 0)];
+    if (name.empty()) return {};
+    auto& context = p.context();
+    auto const where = p.find("filename")->where;
+    return context.scene.add(ImageFile{context.resolve(where, name).string(), "", where});
+}
+
+PointLight point(Params& p) {
+    PointLight l;
+    l.intensity = emission(p, "I");
+    l.scale = p.number("scale", 1);
+    l.power = p.number("power", -1);
+    l.from = p.point3("from", {0, 0, 0});
+    return l;
+}
+
+SpotLight spot(Params& p) {
+    SpotLight l;
+    l.intensity = emission(p, "I");
+    l.scale = p.number("scale", 1);
+    l.power = p.number("power", -1);
+    l.from = p.point3("from", {0, 0, 0});
+    l.to = p.point3("to", {0, 0, 1});
+    l.cone_angle = radians(p.number("coneangle", 30));
+    l.cone_delta = radians(p.number("conedeltaangle", 5));
+    if (l.from == l.to) p.fail("\"from\" and \"to\" are the same point: it has no direction");
+    return l;
+}
+
+DistantLight distant(Params& p) {
+    DistantLight l;
+    l.radiance = emission(p, "L");
+    l.scale = p.number("scale", 1);
+    l.illuminance = p.number("illuminance", -1);
+    l.from = p.point3("from", {0, 0, 0});
+    l.to = p.point3("to", {0, 0, 1});
+    if (l.from == l.to) p.fail("\"from\" and \"to\" are the same point: it has no direction");
+    return l;
+}
+
+InfiniteLight infinite(Params& p) {
+    InfiniteLight l;
+    if (p.find("L") && p.find("filename")) p.fail("give either \"L\" or \"filename\", not both");
+    l.radiance = emission(p, "L");
+    l.image = image_of(p, &l.mapping);
+    l.scale = p.number("scale", 1);
+    l.illuminance = p.number("illuminance", -1);
+    if (p.find("portal", {ParamType::Point3})) p.note("portals are not used yet: the whole sky is sampled");
+    return l;
+}
+
+/// The light of a picture or a measured lamp, without either.
+PointLight stand_in(Params& p, std::string const& type) {
+    p.note("\"" + type + "\" is not rendered yet: a point light stands in");
+    p.find("filename"), p.find("fov");
+    return point(p);
+}
+
+}  // namespace
+
+LightKind make_light(std::string const& type, Params& p) {
+    if (type == "point") return point(p);
+    if (type == "spot") return spot(p);
+    if (type == "distant") return distant(p);
+    if (type == "infinite") return infinite(p);
+    if (type == "goniometric" || type == "projection") return stand_in(p, type);
+    if (type == "exinfinite") p.fail("\"exinfinite\" is of pbrt-v3; in pbrt-v4 it is \"infinite\"");
+    p.fail("unknown light" +
+           did_you_mean(type, {"point", "spot", "distant", "infinite", "goniometric", "projection"}));
+}
+
+AreaLight make_area_light(std::string const& type, Params& p) {
+    if (type == "area") p.fail("\"area\" is of pbrt-v2; in pbrt-v4 it is \"diffuse\"");
+    if (type != "diffuse") p.fail("unknown area light; the only one is \"diffuse\"");
+    AreaLight l;
+    if (p.find("L") && p.find("filename")) p.fail("give either \"L\" or \"filename\", not both");
+    l.radiance = emission(p, "L");
+    l.image = image_of(p);
+    l.scale = p.number("scale", 1);
+    l.power = p.number("power", -1);
+    l.two_sided = p.boolean("twosided", false);
+    l.where = p.where();
+    return l;
+}
+
+}  // namespace nephroid

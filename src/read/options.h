@@ -1,0 +1,21 @@
+// What stands before WorldBegin: camera, film, filter, sampler, integrator. Names and defaults are pbrt-v4's.
+#pragma once
+
+#include "params.h"
+
+namespace nephroid {
+
+/// `camera_from_world` is the current transform at the directive.
+Camera make_camera(std::string const& type, Params& params, Mat4 const& camera_from_world);
+FilmSettings make_film(std::string const& type, Params& params);
+Filter make_filter(std::string const& type, Params& params);
+Integrator make_integrator(std::string const& type, Params& params);
+
+struct SamplerOptions {
+    Sampler sampler;
+    int spp = 16;
+    std::optional<int> seed;
+};
+SamplerOptions make_sampler(std::string const& type, Params& params);
+
+}  // namespace nephroid

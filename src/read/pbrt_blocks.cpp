@@ -1,0 +1,147 @@
+// Blocks, instances and other files: the directives that give a scene its structure.
+#include "pbrt_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nephroid {
+
+namespace {
+
+constexpr std::size_t kMaxBlocks = 4'000'000;  // 400 bytes each
+constexpr std::size_t kMaxIncludes = 32;
+
+AffineRows rows_of(Mat4 const& m) {
+    AffineRows r;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) r[i][j] = static_cast<float>(m.m[i][j]);
+    return r;
+}
+
+}  // namespace
+
+void PbrtReader::world_begin(Tokenizer& /*tokens*/, SourceLocation /*where*/) {
+    in_world_ = true;
+    state_.start = state_.end = {};
+    state_.start_active = state_.end_active = true;
+    coordinate_systems_["world"] = {};
+}
+
+void PbrtReader::world_end(Tokenizer& /*tokens*/, SourceLocation where) {
+    context_.note(where, "WorldEnd is of pbrt-v3: in pbrt-v4 the world ends with the file");
+}
+
+void PbrtReader::push(char kind, SourceLocation where) {
+    if (saved_.size() == kMaxBlocks)
+        throw Error(ErrorKind::Limit, context_.scene.locate(where) + ": more than four million open blocks");
+    saved_.push_back({state_, kind, where});
+}
+
+void PbrtReader::pop(char kind, SourceLocation where) {
+    char const* const end = kind == 'o' ? "ObjectEnd" : "AttributeEnd";
+    if (saved_.size() <= saved_floor_) context_.fail(where, std::string(end) + " without its Begin");
+    auto& top = saved_.back();
+    if (top.kind != kind)
+        context_.fail(where, std::string(end) + " closes what " +
+                                 (kind == 'o' ? "AttributeBegin" : "ObjectBegin") + " opened at " +
+                                 context_.scene.locate(top.where));
+    state_ = std::move(top.state);
+    saved_.pop_back();
+}
+
+void PbrtReader::attribute_begin(Tokenizer& /*tokens*/, SourceLocation where) { push('a', where); }
+void PbrtReader::attribute_end(Tokenizer& /*tokens*/, SourceLocation where) { pop('a', where); }
+void PbrtReader::transform_begin(Tokenizer& /*tokens*/, SourceLocation where) {
+    context_.note(where, "TransformBegin is deprecated; as in pbrt-v4 it saves all that AttributeBegin does");
+    push('a', where);
+}
+
+void PbrtReader::attribute(Tokenizer& tokens, SourceLocation where) {
+    auto const target = type_of(tokens, "Attribute");
+    constexpr std::array<std::string_view, 5> kTargets{"shape", "light", "material", "medium", "texture"};
+    auto const it = std::find(kTargets.begin(), kTargets.end(), target);
+    if (it == kTargets.end())
+        context_.fail(where, "Attribute \"" + target +
+                                 "\": must be \"shape\", \"light\", \"material\", \"medium\" or \"texture\"");
+    auto& shared = state_.attributes[static_cast<std::size_t>(it - kTargets.begin())];
+    // Saved states share the old list: make a new one, without what this directive sets anew.
+    auto added = parse_params(tokens, context_, state_.color_space);
+    ParamList list;
+    if (shared)
+        std::copy_if(shared->begin(), shared->end(), std::back_inserter(list), [&](Param const& old) {
+            return std::none_of(added.begin(), added.end(),
+                                [&](Param const& p) { return p.name == old.name; });
+        });
+    std::move(added.begin(), added.end(), std::back_inserter(list));
+    shared = std::make_shared<ParamList const>(std::move(list));
+}
+
+void PbrtReader::object_begin(Tokenizer& tokens, SourceLocation where) {
+    auto const name = type_of(tokens, "ObjectBegin");
+    if (group_ != GroupId{0}) context_.fail(where, "ObjectBegin inside another object; end that first");
+    push('o', where);
+    auto& object = objects_[name];
+    if (object.defined)
+        context_.fail(where, "object \"" + name + "\" is already defined at " +
+                                 context_.scene.locate(context_.scene[object.group].where));
+    if (!object.group.valid()) object.group = context_.scene.add(Group{name, {}, {}, where});
+    context_.scene.groups[object.group.value].where = where;
+    object.defined = true;
+    group_ = object.group;
+}
+
+void PbrtReader::object_end(Tokenizer& /*tokens*/, SourceLocation where) {
+    if (group_ == GroupId{0}) context_.fail(where, "ObjectEnd without its Begin");
+    pop('o', where);
+    group_ = GroupId{0};
+}
+
+void PbrtReader::object_instance(Tokenizer& tokens, SourceLocation where) {
+    auto const name = type_of(tokens, "ObjectInstance");
+    auto& object = objects_[name];
+    if (!object.group.valid()) {
+        // It may be defined later; finish_objects() looks.
+        object.group = context_.scene.add(Group{name, {}, {}, where});
+        object.first_use = where;
+    }
+    if (object.group == group_) context_.fail(where, "object \"" + name + "\" contains itself");
+    if (!is_affine(state_.start))
+        context_.fail(where, "the transform of an instance must not be a projection");
+    note_motion(where);
+    context_.scene.groups[group_.value].instances.push_back({object.group, rows_of(state_.start), where});
+}
+
+void PbrtReader::run_file(Tokenizer& tokens, SourceLocation where, char const* what) {
+    auto const name = type_of(tokens, what);
+    auto const path = context_.resolve(where, name);
+    std::error_code ignored;
+    auto canonical = std::filesystem::weakly_canonical(path, ignored);
+    if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
+        context_.fail(where, std::string(what) + " \"" + name + "\": the file includes itself");
+    if (open_files_.size() >= kMaxIncludes)
+        context_.fail(where, std::string(what) + " \"" + name + "\": files are nested more than 32 deep");
+    auto const text = context_.read_named(where, what, path);
+    auto const file = context_.add_file(path.string(), path.parent_path());
+    open_files_.push_back(std::move(canonical));
+    Tokenizer inner(context_.scene, file, text);
+    run(inner);
+    open_files_.pop_back();
+}
+
+void PbrtReader::include(Tokenizer& tokens, SourceLocation where) { run_file(tokens, where, "Include"); }
+
+/// As Include, but nothing of the graphics state comes back.
+void PbrtReader::import(Tokenizer& tokens, SourceLocation where) {
+    auto const state = state_;
+    auto const depth = saved_.size();
+    auto const group = group_;
+    auto const floor = std::exchange(saved_floor_, depth);
+    run_file(tokens, where, "Import");
+    if (saved_.size() != depth)
+        context_.fail(saved_.back().where, "this block is not closed in the imported file");
+    saved_floor_ = floor;
+    state_ = state;
+    group_ = group;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,204 @@
+#include "render/render.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace nephroid {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+constexpr int kTileSize = 16;
+
+std::vector<Tile> tiles_of(std::array<int, 4> crop) {
+    std::vector<Tile> tiles;
+    for (int y = crop[2]; y < crop[3]; y += kTileSize)
+        for (int x = crop[0]; x < crop[1]; x += kTileSize)
+            tiles.push_back({x, std::min(x + kTileSize, crop[1]), y, std::min(y + kTileSize, crop[3])});
+    return tiles;
+}
+
+/// A tile's sums before a batch touched them, to go back to when the batch is abandoned.
+class Undo {
+  public:
+    void keep(Film const& film, Tile const& t) {
+        for (int y = t.y0; y < t.y1; ++y)
+            for (int x = t.x0; x < t.x1; ++x) {
+                pixels_.push_back(film.pixel(x, y));
+                if (film.has_aovs()) aovs_.push_back(film.aov(x, y));
+            }
+    }
+    void restore(Film& film, Tile const& t) const {
+        if (pixels_.empty()) return;
+        std::size_t i = 0;
+        for (int y = t.y0; y < t.y1; ++y)
+            for (int x = t.x0; x < t.x1; ++x, ++i) {
+                film.pixel(x, y) = pixels_[i];
+                if (film.has_aovs()) film.aov(x, y) = aovs_[i];
+            }
+    }
+    void clear() { pixels_.clear(), aovs_.clear(); }
+
+  private:
+    std::vector<PixelSums> pixels_;
+    std::vector<AovSums> aovs_;
+};
+
+/// One run of the loop. A batch is a range of passes; each tile adds them to its pixels in ascending order, so that neither
+/// the batches' sizes nor the threads change a bit of the sums.
+class Loop {
+  public:
+    Loop(RenderJob const& job, RenderControl const& control, Film& film)
+        : job_(job),
+          control_(control),
+          film_(film),
+          tiles_(tiles_of(job.crop())),
+          undo_(tiles_.size()),
+          stats_(tiles_.size()) {
+        result_.end = RenderEnd::Complete;
+    }
+
+    RenderResult run() {
+        auto const missing = film_.passes().missing(control_.passes);
+        wanted_ = missing.count();
+        last_checkpoint_ = Clock::now();
+        std::uint64_t batch_size = 1;
+        for (PassRange const& range : missing.ranges()) {
+            for (std::uint64_t next = range.begin; next < range.end;) {
+                if (stopped()) return finish(RenderEnd::Interrupted);
+                if (control_.seconds && since(start_) >= *control_.seconds)
+                    return finish(RenderEnd::TimeLimit);
+                PassRange const batch{next, std::min(range.end, next + batch_size)};
+                auto const t0 = Clock::now();
+                if (!render_batch(batch)) return finish(RenderEnd::Interrupted);
+                next = batch.end;
+                batch_size = next_size(batch.end - batch.begin, since(t0));
+                if (control_.on_checkpoint && since(last_checkpoint_) >= control_.checkpoint_seconds) {
+                    control_.on_checkpoint(film_);
+                    last_checkpoint_ = Clock::now();
+                }
+            }
+        }
+        return finish(RenderEnd::Complete);
+    }
+
+  private:
+    [[nodiscard]] bool stopped() const {
+        return control_.stop && control_.stop->load(std::memory_order_relaxed);
+    }
+
+    /// Batches of about a quarter of a second: long enough to pay for starting threads, short enough to stop between them.
+    std::uint64_t next_size(std::uint64_t size, double seconds) const {
+        double const target =
+            control_.seconds ? std::min(0.25, std::max(0.02, *control_.seconds / 20)) : 0.25;
+        if (seconds > 2 * target) return std::max<std::uint64_t>(1, size / 2);
+        if (seconds < target / 2) return std::min<std::uint64_t>(64, size * 2);
+        return size;
+    }
+
+    bool render_batch(PassRange batch) {
+        std::atomic<bool> abandoned{false};
+        std::atomic<std::uint64_t> dropped{0};
+        tiles_done_ = 0;
+        batch_ = batch;
+        tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
+            Tile const& tile = tiles_[i];
+            undo_[i].clear();
+            undo_[i].keep(film_, tile);
+            // Pass by pass, so that a signal is heard soon.
+            for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) {
+                if (stopped()) {
+                    abandoned = true;
+                    return;
+                }
+                dropped.fetch_add(render_tile(job_, tile, {pass, pass + 1}, film_, stats_[i]),
+                                  std::memory_order_relaxed);
+            }
+            tiles_done_.fetch_add(1, std::memory_order_relaxed);
+            report(false);
+        });
+        if (abandoned) {
+            for (std::size_t i = 0; i < tiles_.size(); ++i) undo_[i].restore(film_, tiles_[i]);
+            return false;
+        }
+        for (Undo& u : undo_) u.clear();
+        film_.add_dropped(dropped);
+        for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) film_.finish_pass(pass);
+        result_.passes += batch.end - batch.begin;
+        batch_ = {0, 0};
+        report(result_.passes == wanted_);
+        return true;
+    }
+
+    void report(bool now) {
+        if (!control_.on_progress) return;
+        std::unique_lock lock(report_mutex_, std::defer_lock);
+        if (now) {
+            lock.lock();
+        } else if (!lock.try_lock() || since(last_report_) < 0.1) {
+            return;
+        }
+        last_report_ = Clock::now();
+        RenderProgress p;
+        p.passes_done = result_.passes;
+        p.passes_wanted = wanted_;
+        double const in_flight = static_cast<double>(batch_.end - batch_.begin) *
+                                 static_cast<double>(tiles_done_.load()) /
+                                 static_cast<double>(std::max<std::size_t>(1, tiles_.size()));
+        double const done = static_cast<double>(result_.passes) + in_flight;
+        p.fraction = wanted_ > 0 ? done / static_cast<double>(wanted_) : 1.0;
+        if (control_.seconds)
+            p.fraction = std::max(p.fraction, std::min(1.0, since(start_) / *control_.seconds));
+        p.seconds = since(start_);
+        control_.on_progress(p);
+    }
+
+    RenderResult finish(RenderEnd end) {
+        result_.end = end;
+        for (RayStats const& s : stats_) result_.rays.add(s);
+        result_.seconds = since(start_);
+        return result_;
+    }
+
+    RenderJob const& job_;
+    RenderControl const& control_;
+    Film& film_;
+    std::vector<Tile> tiles_;
+    std::vector<Undo> undo_;
+    std::vector<RayStats> stats_;  // one a tile: never shared
+    RenderResult result_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_checkpoint_;
+    Clock::time_point last_report_;
+    std::mutex report_mutex_;
+    std::atomic<std::size_t> tiles_done_{0};
+    PassRange batch_{0, 0};
+    std::uint64_t wanted_ = 0;
+};
+
+}  // namespace
+
+RenderResult render(RenderJob const& job, RenderControl const& control, Film& film) {
+    int const threads = control.threads > 0
+                            ? control.threads
+                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    // TBB has as many workers as the machine has cores; more are had by asking.
+    std::optional<tbb::global_control> more;
+    if (threads > tbb::info::default_concurrency())
+        more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    RenderResult result;
+    arena.execute([&] { result = Loop(job, control, film).run(); });
+    return result;
+}
+
+}  // namespace nephroid

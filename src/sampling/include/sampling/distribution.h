@@ -1,0 +1,92 @@
+// Discrete and piecewise-constant distributions.
+#pragma once
+
+#include "math/vec.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace nephroid {
+
+/// Walker's alias table (built by Vose 1991): one index in constant time.
+class AliasTable {
+  public:
+    struct Sample {
+        std::uint32_t index = 0;
+        float pmf = 0;
+        float u = 0;  // a fresh uniform number left over from the one put in
+    };
+
+    AliasTable() = default;
+    /// Weights >= 0; all zero makes an empty table.
+    explicit AliasTable(std::span<float const> weights);
+
+    [[nodiscard]] bool empty() const { return bins_.empty(); }
+    [[nodiscard]] std::size_t size() const { return bins_.size(); }
+    [[nodiscard]] float pmf(std::uint32_t i) const { return bins_[i].p; }
+    [[nodiscard]] Sample sample(float u) const;
+    [[nodiscard]] std::size_t bytes() const { return bins_.size() * sizeof(Bin); }
+
+  private:
+    struct Bin {
+        float q = 0;  // keep this index with probability q, else take alias
+        float p = 0;
+        std::uint32_t alias = 0;
+    };
+    std::vector<Bin> bins_;
+};
+
+inline AliasTable::Sample AliasTable::sample(float u) const {
+    float const scaled = u * static_cast<float>(bins_.size());
+    auto const i = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
+    float const up = std::min(scaled - static_cast<float>(i), kOneMinusEpsilon);
+    Bin const& b = bins_[i];
+    if (up < b.q) return {i, b.p, std::min(up / b.q, kOneMinusEpsilon)};
+    return {b.alias, bins_[b.alias].p, std::min((up - b.q) / (1.0f - b.q), kOneMinusEpsilon)};
+}
+
+/// Piecewise-constant density over [0,1], sampled by inversion (keeps stratification).
+class Distribution1D {
+  public:
+    Distribution1D() = default;
+    explicit Distribution1D(std::span<float const> f);
+
+    [[nodiscard]] float integral() const { return integral_; }
+    [[nodiscard]] std::size_t size() const { return f_.size(); }
+    /// x in [0,1); `pdf` its density, `cell` where it fell.
+    float sample(float u, float* pdf = nullptr, std::size_t* cell = nullptr) const;
+    [[nodiscard]] float pdf(float x) const;
+    [[nodiscard]] std::optional<float> invert(float x) const;
+    [[nodiscard]] std::size_t bytes() const {
+        return (f_.size() + cdf_.size()) * sizeof(float) + guide_.size() * sizeof(std::uint32_t);
+    }
+
+  private:
+    std::vector<float> f_, cdf_;
+    std::vector<std::uint32_t>
+        guide_;  // guide_[k]: the cell of u = k / n, where the search for u >= k / n starts
+    float integral_ = 0;
+};
+
+/// Piecewise-constant density over the unit square, row by row.
+class Distribution2D {
+  public:
+    Distribution2D() = default;
+    Distribution2D(std::span<float const> f, int width, int height);
+
+    [[nodiscard]] bool empty() const { return rows_.empty(); }
+    [[nodiscard]] float integral() const { return marginal_.integral(); }
+    Vec2 sample(Vec2 u, float* pdf = nullptr) const;
+    [[nodiscard]] float pdf(Vec2 p) const;
+    [[nodiscard]] std::optional<Vec2> invert(Vec2 p) const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    std::vector<Distribution1D> rows_;
+    Distribution1D marginal_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,79 @@
+// The numbers of one path: a pure function of (seed, stream, pixel or path, pass, dimension).
+//
+// Draws are named by dimension, not counted by state: `at(d)` moves the cursor, so that a bounce reads the same dimensions
+// whatever the bounces before it consumed. `stream` keeps different uses of a pass apart (camera paths, photons, …).
+#pragma once
+
+#include "math/vec.h"
+#include "sampling/hash.h"
+#include "sampling/sobol.h"
+
+#include <cstdint>
+
+namespace nephroid {
+
+enum class SequenceKind : std::uint8_t { Sobol, Stratified, Independent };
+
+/// Which points a render uses; see scene/settings.h for what they mean.
+struct Sequence {
+    SequenceKind kind = SequenceKind::Sobol;
+    std::uint64_t seed = 0;
+    std::uint32_t x_strata = 4, y_strata = 4;
+    bool jitter = true;
+};
+
+class PathSampler {
+  public:
+    /// `path` names the pixel (or the photon path) within the picture, `pass` the sample of that pixel.
+    PathSampler(Sequence const& sequence, std::uint64_t stream, std::uint64_t path, std::uint64_t pass)
+        : sequence_(&sequence),
+          key_(hash_keys(sequence.seed ^ (stream << 56), path)),
+          index_(static_cast<std::uint32_t>(pass)) {
+        // Beyond 2^32 passes the sequence starts anew under another scramble.
+        if (pass >> 32) key_ = hash_keys(key_, pass >> 32);
+        if (sequence.kind == SequenceKind::Independent) key_ = hash_keys(key_, pass);
+    }
+
+    void at(std::uint32_t dimension) { dimension_ = dimension; }
+    [[nodiscard]] std::uint32_t dimension() const { return dimension_; }
+
+    float next_1d() {
+        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
+        switch (sequence_->kind) {
+            case SequenceKind::Sobol:
+                return sobol_1d(index_, key);
+            case SequenceKind::Independent:
+                return to_unit_float(static_cast<std::uint32_t>(key));
+            case SequenceKind::Stratified:
+                return stratified_1d(key);
+        }
+        return 0;
+    }
+    Vec2 next_2d() {
+        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
+        switch (sequence_->kind) {
+            case SequenceKind::Sobol:
+                return sobol_2d(index_, key);
+            case SequenceKind::Independent:
+                return {to_unit_float(static_cast<std::uint32_t>(key)),
+                        to_unit_float(static_cast<std::uint32_t>(key >> 32))};
+            case SequenceKind::Stratified:
+                return stratified_2d(key);
+        }
+        return {0, 0};
+    }
+
+  private:
+    [[nodiscard]] float stratified_1d(std::uint64_t key) const;
+    [[nodiscard]] Vec2 stratified_2d(std::uint64_t key) const;
+
+    Sequence const* sequence_;
+    std::uint64_t key_;
+    std::uint32_t index_;
+    std::uint32_t dimension_ = 0;
+};
+
+/// Element i of a random permutation of 0..n-1 named by `key` (Kensler 2013, "Correlated Multi-Jittered Sampling").
+std::uint32_t permutation_element(std::uint32_t i, std::uint32_t n, std::uint32_t key);
+
+}  // namespace nephroid

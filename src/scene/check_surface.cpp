@@ -1,0 +1,86 @@
+// Spectra, textures and materials.
+#include "check.h"
+#include "scene/match.h"
+
+namespace nephroid {
+
+void check_spd(Check const& c, Spd const& spd, char const* what) {
+    check_finite(c, spd, what);
+    match(
+        spd,
+        [&](TabulatedSpd const& t) {
+            c.require(!t.lambda.empty(), "the tabulated spectrum is empty: give wavelengths and values");
+            c.require(t.lambda.size() == t.value.size(),
+                      "the tabulated spectrum needs as many values as wavelengths");
+            for (std::size_t i = 1; i < t.lambda.size(); ++i)
+                c.require(t.lambda[i - 1] < t.lambda[i],
+                          "the wavelengths of a tabulated spectrum must increase");
+        },
+        [&](BlackbodySpd const& b) {
+            c.require(b.kelvin > 0, "a black body's temperature must be above 0 K");
+        },
+        [&](NamedSpd const& n) { c.require(!n.name.empty(), "a spectrum's name is empty: name one"); },
+        [](auto const&) {});
+}
+
+namespace {
+
+void check_mapping(Check const& c, TextureMapping const& mapping) {
+    check_finite(c, mapping, "the texture's mapping");
+    match(
+        mapping, [](UvMapping const&) {},
+        [&](auto const& m) { check_matrix(c, m.world_to_texture, "the texture's transform"); });
+}
+
+void check_index(Check const& c, Spd const& eta) {
+    check_spd(c, eta, "the index of refraction");
+    if (auto const* constant = std::get_if<ConstantSpd>(&eta))
+        c.require(constant->value > 0, "the index of refraction must be above 0");
+}
+
+}  // namespace
+
+void check_texture(Check const& c, Texture const& texture) {
+    check_ids(c, texture.kind, "the texture");
+    auto const operand = [&](TextureId id) {
+        c.require(id.valid(), "the texture is made of others but names none: name them");
+    };
+    match(
+        texture.kind, [&](ConstantFloatTexture const& t) { check_finite(c, t, "the texture"); },
+        [&](ConstantSpectrumTexture const& t) { check_spd(c, t.value, "the texture"); },
+        [&](ImageTexture const& t) {
+            c.require(t.image.valid(), "the image texture names no picture: name one");
+            check_finite(c, t.scale, "the texture's scale");
+            check_mapping(c, t.mapping);
+        },
+        [&](CheckerboardTexture const& t) {
+            c.require(t.dimension == 2 || t.dimension == 3, "a checkerboard has 2 or 3 dimensions");
+            check_mapping(c, t.mapping);
+            check_matrix(c, t.world_to_texture, "the texture's transform");
+            operand(t.tex1), operand(t.tex2);
+        },
+        [&](ScaleTexture const& t) { operand(t.tex), operand(t.scale); },
+        [&](MixTexture const& t) { operand(t.tex1), operand(t.tex2), operand(t.amount); });
+}
+
+void check_material(Check const& c, Material const& material) {
+    check_ids(c, material.kind, "the material");
+    match(
+        material.kind,
+        [&](DiffuseMaterial const& m) {
+            c.require(m.reflectance.valid(), "the diffuse material names no reflectance: name a texture");
+        },
+        [&](ConductorMaterial const& m) {
+            c.require(m.reflectance.valid() || (m.eta.valid() && m.k.valid()),
+                      "the conductor needs a reflectance, or eta and k: name textures for them");
+        },
+        [&](DielectricMaterial const& m) { check_index(c, m.eta); },
+        [&](ThinDielectricMaterial const& m) { check_index(c, m.eta); },
+        [&](MixMaterial const& m) {
+            c.require(m.a.valid() && m.b.valid(), "the mix names fewer than two materials: name both");
+            c.require(m.amount.valid(), "the mix names no amount: name a float texture");
+        },
+        [](InterfaceMaterial const&) {});
+}
+
+}  // namespace nephroid

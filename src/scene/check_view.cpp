@@ -1,0 +1,90 @@
+// The camera and the settings.
+#include "check.h"
+#include "scene/match.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr int kMaxSide = 65536;
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+void check_lens(Check const& c, float radius, float distance) {
+    c.require(radius >= 0, "the lens radius must not be negative");
+    c.require(distance > 0, "the focal distance must be above 0");
+}
+
+void check_filter(Check const& c, Filter const& filter) {
+    check_finite(c, filter, "the pixel filter");
+    match(filter, [&](auto const& f) {
+        c.require(f.radius.x > 0 && f.radius.y > 0, "the pixel filter's radii must be above 0");
+        if constexpr (requires { f.sigma; })
+            c.require(f.sigma > 0, "the gaussian filter's sigma must be above 0");
+        if constexpr (requires { f.tau; }) c.require(f.tau > 0, "the sinc filter's tau must be above 0");
+    });
+}
+
+void check_sampler(Check const& c, Sampler const& sampler) {
+    auto const* s = std::get_if<StratifiedSampler>(&sampler);
+    if (!s) return;
+    c.require(s->x_strata >= 1 && s->y_strata >= 1,
+              "the stratified sampler needs at least one stratum a side");
+    if (std::int64_t{s->x_strata} * s->y_strata > kMaxPixels)
+        c.limit("the stratified sampler has more than 2^28 strata: use fewer");
+}
+
+void check_film(Check const& c, FilmSettings const& film) {
+    auto const [width, height] = std::array{film.resolution.x, film.resolution.y};
+    c.require(width >= 1 && height >= 1, "the picture must be at least 1 pixel wide and high");
+    if (width > kMaxSide || height > kMaxSide || std::int64_t{width} * height > kMaxPixels)
+        c.limit(
+            "the picture may be at most 65536 pixels wide and high, and have 2^28 pixels: make it smaller");
+    if (film.crop) {
+        auto const [x0, x1, y0, y1] = *film.crop;
+        c.require(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height,
+                  "the crop window must lie inside the picture and hold at least one pixel");
+    }
+    c.require(film.iso > 0 && std::isfinite(film.iso), "the film's ISO speed must be above 0 and finite");
+    c.require(film.white_balance >= 0 && std::isfinite(film.white_balance),
+              "the white balance must be a temperature in kelvin, or 0 for none");
+    c.require(film.max_component > 0, "the largest component of a sample must be above 0");
+}
+
+}  // namespace
+
+void check_camera(Check const& c, Camera const& camera) {
+    check_matrix(c, camera.to_world, "the camera's transform");
+    check_finite(c, camera, "the camera");
+    match(
+        camera.kind,
+        [&](PerspectiveCamera const& k) {
+            c.require(k.fov > 0 && k.fov < kPi, "the camera's fov must lie between 0 and 180 degrees");
+            check_lens(c, k.lens_radius, k.focal_distance);
+        },
+        [&](OrthographicCamera const& k) { check_lens(c, k.lens_radius, k.focal_distance); },
+        [](SphericalCamera const&) {});
+    if (camera.screen_window) {
+        auto const [x0, x1, y0, y1] = *camera.screen_window;
+        c.require(x0 < x1 && y0 < y1, "the camera's screen window is empty: give x0 < x1 and y0 < y1");
+    }
+    c.require(!camera.frame_aspect_ratio || *camera.frame_aspect_ratio > 0,
+              "the camera's frame aspect ratio must be above 0");
+    c.require(camera.exposure_time >= 0, "the camera's shutter closes before it opens: swap the times");
+}
+
+void check_settings(Check const& c, Settings const& settings) {
+    check_filter(c, settings.filter);
+    check_sampler(c, settings.sampler);
+    check_film(c, settings.film);
+    c.require(settings.spp >= 1, "there must be at least 1 sample a pixel");
+    match(settings.integrator, [&](auto const& integrator) {
+        check_finite(c, integrator, "the integrator");
+        if constexpr (requires { integrator.max_depth; })
+            c.require(integrator.max_depth >= 0, "the integrator's maxdepth must not be negative");
+        if constexpr (requires { integrator.roulette; })
+            c.require(integrator.roulette.alpha > 0 && integrator.roulette.alpha <= 1,
+                      "the probability of Russian roulette must be above 0 and at most 1");
+    });
+}
+
+}  // namespace nephroid

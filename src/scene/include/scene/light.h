@@ -1,0 +1,63 @@
+// Lights. An Spd gives a colour only: the emitted quantity is scale * spd / photometric(spd), so that scale counts in
+// luminance (pbrt-v4). `power` (lm) or `illuminance` (lx), where >= 0, is what scale 1 then gives. Angles are radians.
+#pragma once
+
+#include "math/transform.h"
+#include "scene/id.h"
+#include "spectrum/spd.h"
+
+#include <array>
+#include <variant>
+#include <vector>
+
+namespace nephroid {
+
+/// Isotropic intensity, W/sr.
+struct PointLight {
+    Spd intensity = RgbIlluminantSpd{{1, 1, 1}};
+    float scale = 1, power = -1;
+    Vec3 from{0, 0, 0};
+};
+/// Full intensity within cone_angle - cone_delta of the axis from->to, 0 beyond cone_angle, smoothstep in cosine between.
+struct SpotLight {
+    Spd intensity = RgbIlluminantSpd{{1, 1, 1}};
+    float scale = 1, power = -1;
+    Vec3 from{0, 0, 0}, to{0, 0, 1};
+    float cone_angle = 0.52359878f, cone_delta = 0.08726646f;
+};
+/// Parallel light that travels along to - from; radiance * scale is the irradiance on a facing surface.
+struct DistantLight {
+    Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
+    float scale = 1, illuminance = -1;
+    Vec3 from{0, 0, 0}, to{0, 0, 1};
+};
+enum class EnvironmentMapping : std::uint8_t {
+    BySize,     // a square picture is equal-area, one twice as wide as high lat-long
+    EqualArea,  // Clarberg's octahedral square (pbrt-v4)
+    LatLong     // longitude by latitude, twice as wide as high
+};
+/// Light from everywhere around: constant, or an image (then `radiance` only names the illuminant).
+struct InfiniteLight {
+    Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
+    ImageId image;
+    EnvironmentMapping mapping = EnvironmentMapping::BySize;
+    float scale = 1, illuminance = -1;
+};
+using LightKind = std::variant<PointLight, SpotLight, DistantLight, InfiniteLight>;
+
+struct Light {
+    LightKind kind;
+    Mat4 to_world;
+    SourceLocation where;
+};
+
+/// Emission of a shape's surface, to the side of its normal or to both.
+struct AreaLight {
+    Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
+    ImageId image;  // when valid: radiance over the shape's (u, v), times scale
+    float scale = 1, power = -1;
+    bool two_sided = false;
+    SourceLocation where;
+};
+
+}  // namespace nephroid

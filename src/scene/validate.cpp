@@ -1,0 +1,56 @@
+#include "check.h"
+
+namespace nephroid {
+
+void check_matrix(Check const& c, Mat4 const& m, char const* what) {
+    check_finite(c, m, what);
+    if (!is_affine(m))
+        c.scene.fail(c.where, std::string(what) + " is projective: its last row must be 0 0 0 1");
+    if (!make_transform(m))
+        c.scene.fail(c.where,
+                     std::string(what) + " cannot be inverted: remove the scale by 0 or the overflow");
+}
+
+namespace {
+
+Mat4 as_matrix(AffineRows const& rows) {
+    Mat4 m;
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(rows[r][k]);
+    return m;
+}
+
+void check_object(Check const& c, Object const& object) {
+    check_ids(c, object.material, "the object");
+    check_ids(c, object.alpha, "the object's alpha");
+    check_matrix(c, object.to_group, "the object's transform");
+    check_shape(c, object.shape);
+    if (object.light)
+        check_area_light(c.at(object.light->where.line ? object.light->where : c.where), *object.light);
+}
+
+void check_group(Check const& c, Group const& group) {
+    for (Object const& object : group.objects) check_object(c.at(object.where), object);
+    for (Instance const& instance : group.instances) {
+        Check const here = c.at(instance.where);
+        here.require(instance.group.valid(), "the instance names no group: name one");
+        check_ids(here, instance.group, "the instance");
+        check_matrix(here, as_matrix(instance.to_parent), "the instance's transform");
+    }
+}
+
+}  // namespace
+
+void validate(Scene const& scene) {
+    Check const c{scene, {}};
+    c.require(!scene.groups.empty(), "there is no world: groups[0] must exist");
+    check_settings(c, scene.settings);
+    check_camera(c.at(scene.camera.where), scene.camera);
+    for (Texture const& texture : scene.textures) check_texture(c.at(texture.where), texture);
+    for (Material const& material : scene.materials) check_material(c.at(material.where), material);
+    for (Light const& light : scene.lights) check_light(c.at(light.where), light);
+    for (Group const& group : scene.groups) check_group(c, group);
+    check_graphs(scene);
+}
+
+}  // namespace nephroid

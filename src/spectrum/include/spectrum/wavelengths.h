@@ -1,0 +1,77 @@
+// What the four lanes of a Spectrum mean along one path.
+//
+// Spectral: four wavelengths in nm, drawn together from one number (hero wavelengths, Wilkie et al. 2014), with the density
+// p(l) = sech^2(a (l - 538)) of visible light (Radziszewski et al. 2009; PBRT 4th ed., 4.5.4). Each lane is a stratified
+// sample of the same density, and keeps its own pdf (1/nm).
+// Rgb: linear sRGB in lanes 0..2; the pdfs are 1 and nothing is wavelength-dependent.
+#pragma once
+
+#include "spectrum/spectrum.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace nephroid {
+
+enum class ColorMode : std::uint8_t { Rgb, Spectral };
+
+inline constexpr float kLambdaMin = 360.0f;
+inline constexpr float kLambdaMax = 830.0f;
+
+/// Density of visible_wavelength over [360, 830] nm, 1/nm.
+inline float visible_wavelength_pdf(float lambda) {
+    if (lambda < kLambdaMin || lambda > kLambdaMax) return 0.0f;
+    return 0.0039398042f / sqr(std::cosh(0.0072f * (lambda - 538.0f)));
+}
+/// Inverse of the cumulative distribution: u in [0,1) to nm.
+inline float visible_wavelength(float u) {
+    return 538.0f - 138.888889f * std::atanh(0.85691062f - 1.82750197f * u);
+}
+
+class Wavelengths {
+  public:
+    static Wavelengths rgb() { return {}; }
+    static Wavelengths spectral(float u) {
+        Wavelengths w;
+        w.mode_ = ColorMode::Spectral;
+        for (int i = 0; i < 4; ++i) {
+            float ui = u + 0.25f * static_cast<float>(i);
+            if (ui >= 1.0f) ui -= 1.0f;
+            w.lambda_.set(i, clamp(visible_wavelength(ui), kLambdaMin, kLambdaMax));
+            // The density at that wavelength without a hyperbolic cosine: sech^2(atanh t) = 1 - t^2.
+            float const t = 0.85691062f - 1.82750197f * ui;
+            w.pdf_.set(i, 0.0039398042f * (1.0f - t * t));
+        }
+        return w;
+    }
+
+    [[nodiscard]] ColorMode mode() const { return mode_; }
+    [[nodiscard]] bool is_rgb() const { return mode_ == ColorMode::Rgb; }
+    /// nm; meaningless in rgb mode.
+    [[nodiscard]] float lambda(int i) const { return lambda_[i]; }
+    [[nodiscard]] Spectrum pdf() const { return pdf_; }
+    [[nodiscard]] bool hero_only() const { return hero_only_; }
+
+    /// After a wavelength-dependent direction only the hero lane can go on: the others' weight becomes 0 and the hero stands
+    /// for all four (PBRT 4th ed., TerminateSecondary).
+    void keep_hero() {
+        if (hero_only_ || is_rgb()) return;
+        hero_only_ = true;
+        pdf_ = Spectrum(pdf_[0] / 4.0f, 0, 0, 0);
+    }
+
+    /// radiance lanes / pdf, 0 where the pdf is 0: what the film's sensor averages.
+    [[nodiscard]] Spectrum weigh(Spectrum radiance) const {
+        Spectrum r;
+        for (int i = 0; i < 4; ++i) r.set(i, pdf_[i] > 0.0f ? radiance[i] / pdf_[i] : 0.0f);
+        return r;
+    }
+
+  private:
+    Spectrum lambda_;
+    Spectrum pdf_{1.0f};
+    ColorMode mode_ = ColorMode::Rgb;
+    bool hero_only_ = false;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,117 @@
+#include "transport/render_pass.h"
+
+#include "scene/match.h"
+#include "walk.h"
+
+#include <algorithm>
+
+namespace nephroid {
+
+namespace {
+
+Sequence sequence_of(Settings const& s) {
+    Sequence q;
+    q.seed = s.seed;
+    match(
+        s.sampler, [&](SobolSampler const&) { q.kind = SequenceKind::Sobol; },
+        [&](StratifiedSampler const& t) {
+            q.kind = SequenceKind::Stratified;
+            q.x_strata = static_cast<std::uint32_t>(t.x_strata);
+            q.y_strata = static_cast<std::uint32_t>(t.y_strata);
+            q.jitter = t.jitter;
+        },
+        [&](IndependentSampler const&) { q.kind = SequenceKind::Independent; });
+    return q;
+}
+
+PreparedCamera camera_of(World const& world, Settings const& settings) {
+    auto c = PreparedCamera::make(world.scene().camera, settings.film.resolution);
+    if (!c)
+        world.scene().fail(world.scene().camera.where,
+                           "the camera's transform cannot be inverted; check LookAt and Scale");
+    return *c;
+}
+
+HemisphereSampling hemisphere_of(Integrator const& integrator) {
+    auto const* path = std::get_if<PathIntegrator>(&integrator);
+    return path ? path->hemisphere : HemisphereSampling::Cosine;
+}
+
+/// Streams keep the numbers of different uses apart.
+constexpr std::uint64_t kCameraStream = 0;
+
+/// The sensor's value of one camera sample, linear sRGB.
+Vec3 sensor_value(RenderJob const& job, Spectrum radiance, Wavelengths const& lambda) {
+    Vec3 rgb = job.sensor()(radiance, lambda);
+    float const m = max_component(rgb);
+    if (m > job.settings().film.max_component) rgb *= job.settings().film.max_component / m;
+    return rgb;
+}
+
+}  // namespace
+
+RenderJob::RenderJob(World const& world, Settings const& settings)
+    : world_(&world),
+      settings_(settings),
+      camera_(camera_of(world, settings)),
+      filter_(settings.filter),
+      sequence_(sequence_of(settings)),
+      // pbrt-v4: exposure time * ISO / 100, so that the defaults leave radiance as it is.
+      sensor_(world.scene().camera.exposure_time * settings.film.iso / 100.0f,
+              settings.film.white_balance > 0 ? std::optional<float>(settings.film.white_balance)
+                                              : std::nullopt) {
+    Vec2i const r = settings.film.resolution;
+    crop_ = settings.film.crop.value_or(std::array<int, 4>{0, r.x, 0, r.y});
+    crop_ = {std::max(0, crop_[0]), std::min(r.x, crop_[1]), std::max(0, crop_[2]), std::min(r.y, crop_[3])};
+    if (crop_[0] >= crop_[1] || crop_[2] >= crop_[3])
+        throw Error(ErrorKind::Input,
+                    "the crop window holds no pixel of the picture; give x0,y0,x1,y1 inside the resolution");
+}
+
+Film RenderJob::make_film() const {
+    return Film(settings_.film.resolution, crop_, settings_.film.aovs,
+                {world_->scene_hash(), hash(settings_), settings_.seed});
+}
+
+std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange passes, Film& film,
+                          RayStats& stats) {
+    Settings const& settings = job.settings();
+    bool const wants_aovs = film.has_aovs();
+    std::uint64_t dropped = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            // The pixel's own name, whatever the crop window or the resolution.
+            std::uint64_t const pixel = static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 |
+                                        static_cast<std::uint32_t>(x);
+            for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass) {
+                PathSampler sampler(job.sequence(), kCameraStream, pixel, pass);
+                sampler.at(dimension::kFilm);
+                FilterSample const f = job.filter().sample(sampler.next_2d());
+                sampler.at(dimension::kLens);
+                Vec2 const lens = job.camera().has_lens() ? sampler.next_2d() : Vec2{0.5f, 0.5f};
+                sampler.at(dimension::kWavelength);
+                Wavelengths const lambda = settings.color == ColorMode::Rgb
+                                               ? Wavelengths::rgb()
+                                               : Wavelengths::spectral(sampler.next_1d());
+                CameraRay const camera = job.camera().ray(
+                    Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
+                PathContext c{job, job.world(), lambda, sampler, stats, hemisphere_of(settings.integrator)};
+                AovSample aov;
+                Spectrum const radiance_seen = match(settings.integrator, [&](auto const& integrator) {
+                    return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
+                });
+                if (!film.add(x, y, sensor_value(job, radiance_seen * camera.weight, lambda), f.weight))
+                    ++dropped;
+                if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
+            }
+        }
+    return dropped;
+}
+
+void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats) {
+    auto const crop = job.crop();
+    film.add_dropped(render_tile(job, {crop[0], crop[1], crop[2], crop[3]}, {i, i + 1}, film, stats));
+    film.finish_pass(i);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,104 @@
+// The walk that all integrators share: a path that grows from the camera, one scattering at a time.
+//
+// Estimator (PBRT 4th ed., 13.2): L = sum over vertices of beta * (emission seen + light sampled), where beta is the product
+// of f |cos| / pdf along the way. Emission is found in two ways, by scattering into it and by sampling a light; the power
+// heuristic weighs them (Veach 1997, 9.2.4), so that each path counts once.
+#pragma once
+
+#include "film/film.h"
+#include "math/frame.h"
+#include "model/material.h"
+#include "sampling/path_sampler.h"
+#include "sampling/warp.h"
+#include "transport/render_pass.h"
+#include "world/world.h"
+
+namespace nephroid {
+
+/// Dimensions of the sampler: the camera's, then a stride for every vertex of the path, so that a vertex draws the same numbers
+/// whatever was drawn before it.
+namespace dimension {
+inline constexpr std::uint32_t kFilm = 0, kLens = 1, kWavelength = 2;
+inline constexpr std::uint32_t kFirstVertex = 8, kPerVertex = 8;
+inline constexpr std::uint32_t kMix = 0, kLightChoice = 1, kLight = 2, kLobe = 3, kDirection = 4,
+                               kRoulette = 5;
+inline std::uint32_t of(std::uint32_t vertex, std::uint32_t which) {
+    return kFirstVertex + kPerVertex * vertex + which;
+}
+}  // namespace dimension
+
+/// What a walk needs from outside; one per camera sample.
+struct PathContext {
+    RenderJob const& job;
+    World const& world;
+    Wavelengths lambda;
+    PathSampler& sampler;
+    RayStats& stats;
+    HemisphereSampling hemisphere = HemisphereSampling::Cosine;
+};
+
+/// State of the path between two vertices.
+struct Walk {
+    Ray ray;
+    Spectrum beta;             // throughput so far
+    std::uint32_t vertex = 0;  // how many vertices came before the one this ray looks for
+    Vec3 from{0, 0, 0};        // the last vertex that scattered, …
+    float pdf = 0;             // … the density of the direction it chose, …
+    bool specular = true;      // … or a delta (or the camera): then lights could not be sampled there
+    float eta_scale = 1;       // product of eta^2: radiance squeezed into glass is no reason to end a path
+    bool hero_only = false;
+    float cone = 0;  // distance travelled: the pixel's footprint grows with it
+
+    static Walk from_camera(Ray const& ray, Wavelengths const& lambda) {
+        Walk w;
+        w.ray = ray;
+        // In rgb mode the fourth lane carries nothing.
+        w.beta = lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
+        w.from = ray.o;
+        return w;
+    }
+};
+
+/// A vertex: where the ray met a surface (advance), and how it scatters there (prepare). Filled in place: it is too big to be
+/// handed around.
+struct Vertex {
+    SurfaceHit hit;
+    Frame frame;             // shading
+    Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
+    Bsdf bsdf;
+};
+
+/// How emission that a ray runs into is weighed against light sampling at the ray's origin.
+enum class EmissionWeight : std::uint8_t {
+    Mis,          // power heuristic
+    All,          // lights are not sampled
+    SpecularOnly  // lights are sampled without MIS: count only what could not be sampled
+};
+
+/// Follows the ray to the next surface that scatters, and fills v.hit. Adds beta * emission (of surfaces passed, of the one
+/// reached, of the environment) to `radiance`. False when the ray left the scene.
+bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance);
+
+/// Scattering at v.hit; false when there is none (no material).
+bool prepare(PathContext& c, Walk const& walk, Vertex& v);
+
+/// One light sampled from the vertex: f |cos| Li / pdf, weighed by MIS unless `mis` is off. Without beta.
+Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis);
+
+/// Chooses a direction and moves the walk on; false when the path ends.
+bool scatter(PathContext& c, Walk& walk, Vertex const& v);
+/// The same with a given sample, as of a branch of Whitted's tree.
+bool follow(Walk& walk, Vertex const& v, BsdfSample const& s);
+
+/// Russian roulette (Arvo & Kirk 1990): ends the walk, or makes up for those that were ended.
+bool survives(PathContext& c, Walk& walk, Roulette const& roulette);
+
+/// What the layers of the first hit record.
+void record_first_hit(PathContext& c, Walk const& walk, bool scatters, Vertex const& v, AovSample* aov);
+
+// The integrators: radiance along a camera ray.
+Spectrum radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+Spectrum radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+
+}  // namespace nephroid

@@ -1,0 +1,285 @@
+// compile(Scene) -> World: validate, bake, flatten, build, and gather the lights.
+#include "light_table.h"
+#include "ray_caster.h"
+#include "records.h"
+#include "scene/match.h"
+#include "spectrum/color.h"
+#include "world/world.h"
+#include "world_parts.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+/// A row-major affine matrix in double, for chains of instances.
+Mat4 to_matrix(AffineRows const& rows) {
+    Mat4 m;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) m.m[i][j] = static_cast<double>(rows[i][j]);
+    return m;
+}
+AffineMap to_map(Mat4 const& m) {
+    AffineMap a;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = static_cast<float>(m.m[i][j]);
+    return a;
+}
+
+bool is_mesh(Shape const& s) {
+    return std::holds_alternative<TriangleMesh>(s) || std::holds_alternative<BilinearMesh>(s);
+}
+
+/// Embree reads 16 bytes at each vertex: leave room behind the last.
+void pad(TriangleMesh& m) { m.p.reserve(m.p.size() + 2); }
+
+/// Triangles of no area cannot be seen, and must not be chosen as lights: the scene becomes the one without them.
+void drop_flat_triangles(Scene& scene, Object const& o, TriangleMesh& m) {
+    auto const corner = [&m](int i) { return m.p[static_cast<std::size_t>(i)]; };
+    std::size_t const dropped = std::erase_if(m.triangles, [&](Vec3i const t) {
+        return cross_accurate(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)) == Vec3(0);
+    });
+    if (dropped > 0)
+        scene.note(o.where, std::to_string(dropped) + (dropped == 1 ? " triangle has" : " triangles have") +
+                                " no area: skipped");
+}
+
+/// Meshes into their group's space; subdivision surfaces become triangles.
+void bake(Scene& scene) {
+    for (Group& group : scene.groups)
+        for (Object& o : group.objects) {
+            if (auto const* loop = std::get_if<LoopSubdivision>(&o.shape)) {
+                try {
+                    o.shape = subdivide(*loop);
+                } catch (Error const& e) {
+                    scene.fail(o.where, e.what());
+                }
+            }
+            if (!is_mesh(o.shape)) continue;
+            match(
+                o.shape,
+                [&](TriangleMesh& m) {
+                    transform_mesh(m, o.to_group, o.reverse_orientation);
+                    drop_flat_triangles(scene, o, m);
+                    pad(m);
+                },
+                [&](BilinearMesh& m) { transform_mesh(m, o.to_group, o.reverse_orientation); }, [](auto&) {});
+        }
+}
+
+/// Which side the normal is on: pbrt turns it for ReverseOrientation, and for meshes under a mirroring transform, whose
+/// vertex order is then the other one. Analytic shapes keep "outside" outside.
+bool flips(Object const& o) {
+    return o.reverse_orientation != (is_mesh(o.shape) && swaps_handedness(o.to_group));
+}
+
+std::unique_ptr<AnalyticPlace> place_of(Scene const& scene, Object const& o) {
+    if (is_mesh(o.shape) || is_identity(o.to_group)) return nullptr;
+    auto const inv = inverse(o.to_group);
+    if (!inv) scene.fail(o.where, "the shape's transform cannot be inverted; remove a scale by 0");
+    auto p = std::make_unique<AnalyticPlace>();
+    for (std::size_t i = 0; i < 3; ++i) p->group_to_shape[i] = inv->m[i];
+    p->shape_to_group = to_map(o.to_group);
+    return p;
+}
+
+/// Interfaces are invisible unless they emit: without media there is nothing to do at them.
+bool is_invisible(Scene const& scene, Object const& o) {
+    return !o.light && o.material.valid() &&
+           std::holds_alternative<InterfaceMaterial>(scene[o.material].kind);
+}
+std::uint32_t mask_of(Scene const& scene, Object const& o) {
+    bool const see_through =
+        o.material.valid() && std::holds_alternative<InterfaceMaterial>(scene[o.material].kind);
+    return see_through ? RayCaster::kSeeThrough : RayCaster::kSolid;
+}
+
+/// Emission beyond floats would be black or NaN somewhere on its way.
+void check_emission(Scene const& scene, SourceLocation where, RuntimeSpectrum const& emission) {
+    if (!std::isfinite(emission.max_value()))
+        scene.fail(where, "the light emits more than floats can hold; make its scale smaller");
+}
+/// How often a light is chosen. Power is a product with areas, and may leave the range of floats where emission does not.
+float weight_of(float power) { return power > 0.0f ? std::fmin(power, 1e30f) : 0.0f; }
+
+struct Builder {
+    Scene& scene;
+    Assets& assets;
+    RayCaster& caster;
+    WorldParts& parts;
+    LightTable& lights;
+    WorldCounts& counts;
+
+    std::vector<std::uint32_t> first_record, record_count, caster_group;  // by GroupId
+    std::vector<std::uint32_t> group_of_instance;
+
+    static constexpr std::uint32_t kNotBuilt = 0xFFFFFFFFu;
+
+    void records() {
+        std::size_t total = 0;
+        for (Group const& g : scene.groups) total += g.objects.size();
+        parts.records.reserve(total);  // addresses are kept
+        for (Group const& g : scene.groups) {
+            first_record.push_back(static_cast<std::uint32_t>(parts.records.size()));
+            std::uint32_t lights_of_group = 0;
+            for (Object const& o : g.objects) {
+                if (is_invisible(scene, o)) continue;
+                ObjectRecord r;
+                r.object = &o;
+                r.material = o.material;
+                r.flip = flips(o);
+                r.interface = mask_of(scene, o) == RayCaster::kSeeThrough;
+                r.place = place_of(scene, o);
+                r.textured = (o.material.valid() && assets.data(o.material).textured) ||
+                             (o.light && o.light->image.valid());
+                if (o.light) {
+                    r.first_light = lights_of_group;
+                    lights_of_group += part_count(r);
+                    r.emitter = add_emitter(r);
+                }
+                ++counts.objects;
+                if (auto const* m = std::get_if<TriangleMesh>(&o.shape)) {
+                    counts.triangles += m->triangles.size();
+                } else {
+                    ++counts.analytic;
+                }
+                parts.records.push_back(std::move(r));
+            }
+            record_count.push_back(static_cast<std::uint32_t>(parts.records.size()) - first_record.back());
+        }
+    }
+
+    std::uint32_t add_emitter(ObjectRecord const& r) {
+        AreaLight const& l = *r.object->light;
+        Emitter e;
+        e.light = &l;
+        // Lumens of a surface of luminance 1: pi * area * sides (* the picture's mean luminance).
+        double area = 0;
+        for (std::uint32_t i = 0; i < part_count(r); ++i)
+            area += static_cast<double>(part_area(r, nullptr, i));
+        double unit = static_cast<double>(kPi) * area * (l.two_sided ? 2 : 1);
+        if (l.image.valid()) {
+            Pyramid const& picture = assets.pyramid(l.image);
+            Vec3 const mean = picture.bilerp_rgb(picture.levels() - 1, {0.5f, 0.5f}, Wrap::Clamp);
+            e.image_mean = std::fmax(0.0f, luminance(mean));
+            unit *= static_cast<double>(e.image_mean);
+        }
+        try {
+            e.radiance = emission_spectrum(assets, l.radiance, l.scale, l.power, unit);
+        } catch (Error const& error) {
+            throw Error(error.kind(), scene.locate(l.where) + ": " + error.what());
+        }
+        check_emission(scene, l.where, e.radiance);
+        lights.emitters.push_back(e);
+        return static_cast<std::uint32_t>(lights.emitters.size() - 1);
+    }
+
+    void build_groups() {
+        for (std::uint32_t g = 0; g < scene.groups.size(); ++g) {
+            if (g != 0 && record_count[g] == 0) {
+                caster_group.push_back(kNotBuilt);
+                continue;
+            }
+            std::vector<std::uint32_t> masks;
+            for (std::uint32_t i = 0; i < record_count[g]; ++i)
+                masks.push_back(mask_of(scene, *parts.records[first_record[g] + i].object));
+            caster_group.push_back(caster.add_group(parts.records, first_record[g], record_count[g], masks));
+        }
+    }
+
+    /// Depth first through the groups' instances; Embree's instances have one level, so chains are multiplied out. `validate`
+    /// has excluded cycles and more than 2^31 instances.
+    void flatten(GroupId group, Mat4 const& to_world) {
+        for (Instance const& i : scene[group].instances) {
+            Mat4 const m = to_world * to_matrix(i.to_parent);
+            if (caster_group[i.group.value] != kNotBuilt) {
+                AffineMap const map = to_map(m);
+                if (!(std::abs(map.determinant()) > 0.0f) || !std::isfinite(map.determinant())) {
+                    scene.note(i.where, "an instance with a singular transform was left out");
+                } else {
+                    parts.instances.push_back({map, first_record[i.group.value], 0});
+                    group_of_instance.push_back(caster_group[i.group.value]);
+                }
+            }
+            flatten(i.group, m);
+        }
+    }
+
+    void add_appearance(std::uint32_t first, std::uint32_t count, std::uint32_t instance,
+                        std::vector<float>& weights) {
+        InstanceRecord const* where = instance == kNoInstance ? nullptr : &parts.instances[instance];
+        for (std::uint32_t r = first; r < first + count; ++r) {
+            ObjectRecord const& record = parts.records[r];
+            if (!record.emits()) continue;
+            Emitter const& e = lights.emitters[record.emitter];
+            float const level =
+                e.radiance.max_value() * e.image_mean * kPi * (e.light->two_sided ? 2.0f : 1.0f);
+            std::uint64_t flat = 0;
+            for (std::uint32_t part = 0; part < part_count(record); ++part) {
+                float const area = part_area(record, where, part);
+                bool const uniform = std::holds_alternative<TriangleMesh>(record.object->shape);
+                lights.entries.push_back({r, part, instance, uniform ? 1.0f / area : 0.0f});
+                bool const usable = area > 0.0f && std::isfinite(area);
+                if (!usable) ++flat;
+                weights.push_back(usable ? weight_of(area * level) : 0.0f);
+            }
+            if (flat > 0)
+                scene.note(
+                    record.object->where,
+                    std::to_string(flat) + " light-emitting primitives have no area and were left out");
+        }
+    }
+
+    void gather_lights(BoundingSphere const& sphere) {
+        std::vector<float> weights;
+        add_appearance(first_record[0], record_count[0], kNoInstance, weights);
+        for (std::uint32_t i = 0; i < parts.instances.size(); ++i) {
+            InstanceRecord& instance = parts.instances[i];
+            instance.first_light = static_cast<std::uint32_t>(lights.entries.size());
+            add_appearance(instance.first_record, parts.count_from(instance.first_record), i, weights);
+        }
+        for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+            Light const& light = scene.lights[i];
+            lights.data.push_back(prepare(light, assets));
+            check_emission(scene, light.where, lights.data.back().emission);
+            if (is_infinite(light)) lights.infinite.push_back(LightId{i});
+            lights.entry_of_light.push_back(static_cast<std::uint32_t>(lights.entries.size()));
+            lights.entries.push_back({kNoInstance, i, kNoInstance, 0});
+            weights.push_back(weight_of(power(light, lights.data.back(), assets, sphere)));
+        }
+        lights.choice = AliasTable(weights);
+        counts.lights = lights.entries.size();
+        counts.infinite_lights = lights.infinite.size();
+    }
+};
+
+}  // namespace
+
+World compile(Scene scene_in) {
+    drop_degenerate(scene_in);
+    validate(scene_in);
+    World w;
+    w.hash_ = hash(scene_in);
+    w.scene_ = std::make_unique<Scene>(std::move(scene_in));
+    Scene& scene = *w.scene_;
+    bake(scene);
+    w.assets_ = std::make_unique<Assets>(scene);
+    w.caster_ = std::make_unique<RayCaster>();
+    w.lights_ = std::make_unique<LightTable>();
+    w.parts_ = std::make_unique<WorldParts>();
+
+    Builder b{scene, *w.assets_, *w.caster_, *w.parts_, *w.lights_, w.counts_, {}, {}, {}, {}};
+    b.records();
+    b.build_groups();
+    b.flatten(GroupId{0}, Mat4{});
+    w.counts_.instances = w.parts_->instances.size();
+    w.caster_->finish(w.parts_->instances, b.group_of_instance);
+    w.bounds_ = w.caster_->bounds();
+    w.parts_->first_record = b.first_record;
+    w.parts_->record_count = b.record_count;
+    b.gather_lights(bounding_sphere(w.bounds_));
+    return w;
+}
+
+}  // namespace nephroid

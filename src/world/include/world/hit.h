@@ -1,0 +1,54 @@
+// Where a ray met the world, and what counts rays.
+#pragma once
+
+#include "math/ray.h"
+#include "model/surface.h"
+#include "scene/id.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nephroid {
+
+inline constexpr std::uint32_t kNoInstance = 0xFFFFFFFFu;
+
+/// A surface point in world space and what it belongs to.
+struct SurfaceHit {
+    SurfacePoint s;
+    float t = 0;                           // along the ray, in lengths of its direction
+    Vec2 hit_uv{0, 0};                     // the intersector's own coordinates
+    std::uint32_t record = 0;              // which object
+    std::uint32_t part = 0;                // its triangle, face or patch
+    std::uint32_t instance = kNoInstance;  // which appearance of its group
+    MaterialId material;
+    bool emits = false;
+    bool interface = false;  // light passes as if nothing were there
+
+    /// A ray that leaves in direction w (math/ray.h).
+    [[nodiscard]] Ray spawn(Vec3 w) const { return {offset_ray_origin(s.p, s.p_error, s.ng, w), w}; }
+};
+
+enum class RayKind : std::uint8_t { Camera, Bounce, Shadow };
+
+struct RecordedRay {
+    Ray ray;
+    float t_max;
+    RayKind kind;
+};
+
+/// Counters of one worker; added up when a tile is done, so that threads share nothing.
+struct RayStats {
+    std::array<std::uint64_t, 3> rays{};  // by RayKind
+    std::uint64_t hits = 0;
+    std::uint64_t rejected = 0;                    // rays that were not finite and were not traced
+    std::vector<RecordedRay>* recorder = nullptr;  // for benchmarks: every ray, in order
+
+    void add(RayStats const& b) {
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += b.rays[i];
+        hits += b.hits;
+        rejected += b.rejected;
+    }
+};
+
+}  // namespace nephroid

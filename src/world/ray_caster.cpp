@@ -1,0 +1,279 @@
+#include "ray_caster.h"
+
+#include "scene/match.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#define NEPHROID_EMBREE 4
+#else
+#include <embree3/rtcore.h>
+#define NEPHROID_EMBREE 3
+#endif
+
+#include <atomic>
+#include <limits>
+#include <string>
+
+namespace nephroid {
+
+namespace {
+
+/// What the callbacks of an analytic shape need.
+struct UserGeometry {
+    ObjectRecord const* record;
+};
+
+Ray3d to_shape_space(UserGeometry const& g, RTCRay const& ray) {
+    Ray3d r{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}};
+    if (!g.record->place) return r;
+    auto const& m = g.record->place->group_to_shape;
+    Ray3d out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.o[i] = m[i][0] * r.o[0] + m[i][1] * r.o[1] + m[i][2] * r.o[2] + m[i][3];
+        out.d[i] = m[i][0] * r.d[0] + m[i][1] * r.d[1] + m[i][2] * r.d[2];
+    }
+    return out;
+}
+
+/// A hit and its point in the shape's own space.
+struct LocalHit : ShapeHit {
+    Vec3 p;
+};
+
+std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, RTCRay const& ray) {
+    Ray3d const local = to_shape_space(g, ray);
+    double const t_min = static_cast<double>(ray.tnear);
+    double const t_max = static_cast<double>(ray.tfar);
+    return match(
+        g.record->object->shape, [](TriangleMesh const&) -> std::optional<LocalHit> { return std::nullopt; },
+        [](LoopSubdivision const&) -> std::optional<LocalHit> { return std::nullopt; },
+        [&](auto const& shape) -> std::optional<LocalHit> {
+            auto const hit = intersect(shape, prim, local, t_min, t_max);
+            if (!hit) return std::nullopt;
+            return LocalHit{*hit,
+                            {static_cast<float>(local.o[0] + hit->t * local.d[0]),
+                             static_cast<float>(local.o[1] + hit->t * local.d[1]),
+                             static_cast<float>(local.o[2] + hit->t * local.d[2])}};
+        });
+}
+
+// Only single rays are traced, so N is 1 and the packet types are the single-ray types.
+void intersect_callback(RTCIntersectFunctionNArguments const* args) {
+    if (args->N != 1 || args->valid[0] != -1) return;
+    auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    auto const hit = intersect_user(g, args->primID, rayhit->ray);
+    if (!hit) return;
+    rayhit->ray.tfar = static_cast<float>(hit->t);
+    rayhit->hit.u = hit->u;
+    rayhit->hit.v = hit->v;
+    // Embree hands the normal on as it is: it carries the point in the shape's own space, which was found in double.
+    rayhit->hit.Ng_x = hit->p.x;
+    rayhit->hit.Ng_y = hit->p.y;
+    rayhit->hit.Ng_z = hit->p.z;
+    rayhit->hit.primID = hit->part;
+    rayhit->hit.geomID = args->geomID;
+    rayhit->hit.instID[0] = args->context->instID[0];
+}
+void occluded_callback(RTCOccludedFunctionNArguments const* args) {
+    if (args->N != 1 || args->valid[0] != -1) return;
+    auto* ray = reinterpret_cast<RTCRay*>(args->ray);
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    if (intersect_user(g, args->primID, *ray)) ray->tfar = -std::numeric_limits<float>::infinity();
+}
+
+/// Group-space bounds of one primitive of an analytic shape, a little wider than computed: the shape is exact, its box rounds.
+void bounds_callback(RTCBoundsFunctionArguments const* args) {
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    Bounds3 const local = match(
+        g.record->object->shape, [](TriangleMesh const&) { return Bounds3{}; },
+        [](LoopSubdivision const&) { return Bounds3{}; },
+        [&](auto const& shape) { return primitive_bounds(shape, args->primID); });
+    Bounds3 b;
+    if (g.record->place) {
+        for (int i = 0; i < 8; ++i) {
+            Vec3 const p = g.record->place->shape_to_group.point(local.corner(i));
+            Vec3 const e = g.record->place->shape_to_group.point_error(local.corner(i), Vec3{0, 0, 0});
+            b.add(p - e);
+            b.add(p + e);
+        }
+    } else {
+        b = local;
+    }
+    Vec3 const slack = gamma_bound(4) * max(abs(b.lo), abs(b.hi));
+    args->bounds_o->lower_x = b.lo.x - slack.x;
+    args->bounds_o->lower_y = b.lo.y - slack.y;
+    args->bounds_o->lower_z = b.lo.z - slack.z;
+    args->bounds_o->upper_x = b.hi.x + slack.x;
+    args->bounds_o->upper_y = b.hi.y + slack.y;
+    args->bounds_o->upper_z = b.hi.z + slack.z;
+}
+
+}  // namespace
+
+struct RayCaster::Impl {
+    RTCDevice device = nullptr;
+    std::vector<RTCScene> groups;
+    std::vector<std::unique_ptr<UserGeometry>> users;
+    std::atomic<std::int64_t> bytes{0};
+
+    void check(char const* doing) const {
+        RTCError const e = rtcGetDeviceError(device);
+        if (e == RTC_ERROR_NONE) return;
+        if (e == RTC_ERROR_OUT_OF_MEMORY)
+            throw Error(ErrorKind::Limit,
+                        std::string("out of memory while ") + doing + "; use fewer triangles");
+        throw Error(ErrorKind::Limit,
+                    std::string("Embree refused (error ") + std::to_string(e) + ") while " + doing);
+    }
+};
+
+RayCaster::RayCaster() : impl_(std::make_unique<Impl>()) {
+    // A fixed instruction set: Embree's hits differ in the last bits between them, and pictures must not (docs/conventions.md).
+    impl_->device = rtcNewDevice("isa=avx2");
+    if (!impl_->device) throw Error(ErrorKind::Limit, "Embree cannot start on this machine");
+    rtcSetDeviceMemoryMonitorFunction(
+        impl_->device,
+        [](void* self, ssize_t n, bool) {
+            static_cast<Impl*>(self)->bytes += n;
+            return true;
+        },
+        impl_.get());
+}
+
+RayCaster::~RayCaster() {
+    for (RTCScene const s : impl_->groups)
+        if (s) rtcReleaseScene(s);
+    if (impl_->device) rtcReleaseDevice(impl_->device);
+}
+
+std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std::size_t first,
+                                   std::size_t count, std::vector<std::uint32_t> const& masks) {
+    RTCScene const scene = rtcNewScene(impl_->device);
+    impl_->groups.push_back(scene);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t i = 0; i < count; ++i) {
+        ObjectRecord const& record = records[first + i];
+        RTCGeometry geometry = nullptr;
+        if (auto const* mesh = std::get_if<TriangleMesh>(&record.object->shape)) {
+            geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            // Shared with the scene's arrays; compile() left room for the 16-byte loads at their ends.
+            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->p.data(),
+                                       0, sizeof(Vec3), mesh->p.size());
+            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                       mesh->triangles.data(), 0, sizeof(Vec3i), mesh->triangles.size());
+        } else {
+            geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
+            impl_->users.push_back(std::make_unique<UserGeometry>(UserGeometry{&record}));
+            rtcSetGeometryUserPrimitiveCount(
+                geometry, match(record.object->shape, [](auto const& s) { return primitive_count(s); }));
+            rtcSetGeometryUserData(geometry, impl_->users.back().get());
+            rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+            rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+            rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+        }
+        rtcSetGeometryMask(geometry, masks[i]);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+    // Group 0 is the root: it is committed when its instances are in.
+    if (impl_->groups.size() > 1) {
+        rtcCommitScene(scene);
+    } else {
+        first_instance_ = static_cast<std::uint32_t>(count);
+    }
+    impl_->check("building the acceleration structure");
+    return static_cast<std::uint32_t>(impl_->groups.size() - 1);
+}
+
+void RayCaster::finish(std::vector<InstanceRecord> const& instances,
+                       std::vector<std::uint32_t> const& group_of_instance) {
+    RTCScene const root = impl_->groups.front();
+    unsigned const id = first_instance_;  // after the world's own objects
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        RTCGeometry const geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, impl_->groups[group_of_instance[i]]);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instances[i].to_world.m.data());
+        rtcSetGeometryMask(geometry, kSolid | kSeeThrough);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(root, geometry, id + static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(root);
+    impl_->check("building the acceleration structure");
+}
+
+bool RayCaster::acceptable(Ray const& ray, float t_max) {
+    // Embree 3.13 of Debian asserts |origin| < 1.844e18 and finite directions; a zero direction goes nowhere.
+    // Comparisons with NaN are false, so that one product of bounds does for all.
+    auto const tame = [](float x) { return std::abs(x) < 1e18f; };
+    float const length2 = ray.d.x * ray.d.x + ray.d.y * ray.d.y + ray.d.z * ray.d.z;
+    return bool(tame(ray.o.x) & tame(ray.o.y) & tame(ray.o.z) & (length2 > 0.0f) & (length2 < 1e36f) &
+                (t_max >= 0.0f));
+}
+
+namespace {
+void fill(RTCRay& r, Ray const& ray, float t_max, std::uint32_t mask) {
+    r.org_x = ray.o.x, r.org_y = ray.o.y, r.org_z = ray.o.z;
+    r.dir_x = ray.d.x, r.dir_y = ray.d.y, r.dir_z = ray.d.z;
+    // Not 0: a surface in a coordinate plane has no rounding error to be moved away from, and its own hit is at exactly 0.
+    r.tnear = std::numeric_limits<float>::min();
+    r.tfar = t_max;
+    r.time = 0;
+    r.mask = mask;
+    r.id = 0;
+    r.flags = 0;
+}
+}  // namespace
+
+bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit) const {
+    RTCRayHit rh;
+    fill(rh.ray, ray, t_max, kSolid | kSeeThrough);
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if NEPHROID_EMBREE == 4
+    rtcIntersect1(impl_->groups.front(), &rh);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(impl_->groups.front(), &context, &rh);
+#endif
+    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit.t = rh.ray.tfar;
+    hit.u = rh.hit.u;
+    hit.v = rh.hit.v;
+    hit.local = {rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z};
+    hit.geometry = rh.hit.geomID;
+    hit.primitive = rh.hit.primID;
+    hit.instance =
+        rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? kNoInstance : rh.hit.instID[0] - first_instance_;
+    return true;
+}
+
+bool RayCaster::any(Ray const& ray, float t_max) const {
+    RTCRay r;
+    fill(r, ray, t_max, kSolid);
+#if NEPHROID_EMBREE == 4
+    rtcOccluded1(impl_->groups.front(), &r);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(impl_->groups.front(), &context, &r);
+#endif
+    return r.tfar < 0.0f;
+}
+
+Bounds3 RayCaster::bounds() const {
+    RTCBounds b;
+    rtcGetSceneBounds(impl_->groups.front(), &b);
+    if (b.lower_x > b.upper_x) return {};
+    return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+std::size_t RayCaster::bytes() const {
+    return static_cast<std::size_t>(std::max<std::int64_t>(0, impl_->bytes.load()));
+}
+
+}  // namespace nephroid

@@ -1,0 +1,53 @@
+// The one place that calls Embree (3.13 or 4): builds its scenes and asks it about rays. Every ray is checked here, since
+// Debian's build aborts on NaN and infinite ones.
+#pragma once
+
+#include "math/bounds.h"
+#include "records.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace nephroid {
+
+/// What Embree says of a nearest hit, before any geometry is looked at.
+struct RawHit {
+    float t = 0, u = 0, v = 0;
+    Vec3 local{0, 0, 0};  // of an analytic shape: the point in its own space
+    std::uint32_t geometry = 0, primitive = 0, instance = kNoInstance;
+};
+
+class RayCaster {
+  public:
+    /// Which rays see a geometry.
+    static constexpr std::uint32_t kSolid = 1, kSeeThrough = 2;
+
+    RayCaster();
+    ~RayCaster();
+    RayCaster(RayCaster const&) = delete;
+    RayCaster& operator=(RayCaster const&) = delete;
+
+    /// A group's own objects; returns its number. Geometry ids are the objects' positions in `records`. The records and
+    /// their objects must stay where they are.
+    std::uint32_t add_group(std::vector<ObjectRecord> const& records, std::size_t first, std::size_t count,
+                            std::vector<std::uint32_t> const& masks);
+    /// Puts group 0's objects and the given appearances of other groups into the scene that is traced.
+    void finish(std::vector<InstanceRecord> const& instances,
+                std::vector<std::uint32_t> const& group_of_instance);
+
+    bool nearest(Ray const& ray, float t_max, RawHit& hit) const;
+    bool any(Ray const& ray, float t_max) const;
+    /// False for rays that must not reach Embree.
+    static bool acceptable(Ray const& ray, float t_max);
+
+    [[nodiscard]] Bounds3 bounds() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::uint32_t first_instance_ = 0;  // geometry id of instance 0
+};
+
+}  // namespace nephroid

@@ -1,0 +1,56 @@
+// What the world keeps for each object and instance beside the scene's own structs.
+#pragma once
+
+#include "model/shape.h"
+#include "model/surface.h"
+#include "scene/scene.h"
+#include "world/hit.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace nephroid {
+
+/// An analytic shape's place in its group, in double for the intersection (model/shape.h) and in float for the rest.
+struct AnalyticPlace {
+    std::array<std::array<double, 4>, 3> group_to_shape;
+    AffineMap shape_to_group;
+};
+
+struct ObjectRecord {
+    static constexpr std::uint32_t kNoLight = 0xFFFFFFFFu;
+
+    Object const* object = nullptr;
+    std::unique_ptr<AnalyticPlace> place;  // analytic shapes only; meshes are baked into their group's space
+    std::uint32_t first_light = kNoLight;  // of part 0, relative to the appearance's first light
+    std::uint32_t emitter = kNoLight;      // index of its emission
+    MaterialId material;
+    bool flip = false;       // the surface's side is the other one
+    bool textured = false;   // wants uv and tangents
+    bool interface = false;  // light passes
+
+    [[nodiscard]] bool emits() const { return first_light != kNoLight; }
+};
+
+/// One appearance of a group in world space; the flattened end of a chain of nested instances.
+struct InstanceRecord {
+    AffineMap to_world;
+    std::uint32_t first_record = 0;  // of the group's objects
+    std::uint32_t first_light = 0;   // of the appearance's emitters
+};
+
+/// Geometry of a hit, in world space. `local` is the point in the space of an analytic shape, off by rounding.
+SurfacePoint surface_at(ObjectRecord const& record, InstanceRecord const* instance, ShapeHit const& hit,
+                        Vec3 local, bool tangents);
+/// Uniform by area over one part, in world space.
+ShapeSample sample_part(ObjectRecord const& record, InstanceRecord const* instance, std::uint32_t part,
+                        Vec2 u);
+/// Density by area, in world space, with which sample_part finds that hit.
+float part_pdf(ObjectRecord const& record, InstanceRecord const* instance, std::uint32_t part, Vec2 hit_uv,
+               Vec3 ng_world);
+std::uint32_t part_count(ObjectRecord const& record);
+/// World-space area of a part (for an analytic shape under a shear: by quadrature).
+float part_area(ObjectRecord const& record, InstanceRecord const* instance, std::uint32_t part);
+
+}  // namespace nephroid

@@ -1,0 +1,179 @@
+#include "world/world.h"
+
+#include "light_table.h"
+#include "ray_caster.h"
+#include "scene/match.h"
+#include "world_parts.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+std::size_t LightTable::bytes() const {
+    std::size_t n = emitters.size() * sizeof(Emitter) + data.size() * sizeof(LightData) +
+                    entries.size() * sizeof(Entry) + entry_of_light.size() * sizeof(std::uint32_t) +
+                    choice.bytes();
+    for (LightData const& d : data)
+        if (d.table) n += d.table->distribution.bytes();
+    return n;
+}
+
+World::World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+WorldMemory World::memory() const {
+    WorldMemory m;
+    for (Group const& g : scene_->groups)
+        for (Object const& o : g.objects)
+            match(
+                o.shape,
+                [&](TriangleMesh const& s) {
+                    m.meshes += s.p.size() * sizeof(Vec3) + s.n.size() * sizeof(Vec3) +
+                                s.uv.size() * sizeof(Vec2) + s.triangles.size() * sizeof(Vec3i);
+                },
+                [&](BilinearMesh const& s) {
+                    m.meshes += s.p.size() * sizeof(Vec3) + s.n.size() * sizeof(Vec3) +
+                                s.uv.size() * sizeof(Vec2) + s.patches.size() * sizeof(s.patches[0]);
+                },
+                [](auto const&) {});
+    m.bvh = caster_->bytes();
+    m.images = assets_->image_bytes();
+    m.spectra = assets_->spectrum_bytes();
+    m.lights = lights_->bytes();
+    m.instances =
+        parts_->instances.size() * sizeof(InstanceRecord) + parts_->records.size() * sizeof(ObjectRecord);
+    return m;
+}
+
+bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const {
+    ++stats.rays[static_cast<std::size_t>(kind)];
+    if (!RayCaster::acceptable(ray, t_max)) {
+        ++stats.rejected;
+        return false;
+    }
+    if (stats.recorder) stats.recorder->push_back({ray, t_max, kind});
+    RawHit raw;
+    if (!caster_->nearest(ray, t_max, raw)) return false;
+    ++stats.hits;
+    InstanceRecord const* instance = raw.instance == kNoInstance ? nullptr : &parts_->instances[raw.instance];
+    std::uint32_t const index = (instance ? instance->first_record : 0) + raw.geometry;
+    ObjectRecord const& record = parts_->records[index];
+    hit.t = raw.t;
+    hit.hit_uv = {raw.u, raw.v};
+    hit.record = index;
+    hit.part = raw.primitive;
+    hit.instance = raw.instance;
+    hit.material = record.material;
+    hit.emits = record.emits();
+    hit.interface = record.interface;
+    hit.s = surface_at(record, instance, {static_cast<double>(raw.t), raw.u, raw.v, raw.primitive}, raw.local,
+                       record.textured);
+    return true;
+}
+
+bool World::occluded(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
+    ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
+    Ray ray;
+    float t_max = kInfinity;
+    if (to.at_infinity) {
+        ray = from.spawn(to.wi);
+    } else {
+        // Between two points, each moved off its surface towards the other: the far one also by the rounding of the direction,
+        // which grows with the distance and would else reach below a surface seen at grazing. The last 2^-20 of the way
+        // is left out: where the far end is a corner, other surfaces begin there.
+        ray.o = offset_ray_origin(from.s.p, from.s.p_error, from.s.ng, to.p - from.s.p);
+        Vec3 const rounding = gamma_bound(3) * abs(to.p - ray.o);
+        Vec3 const target = offset_ray_origin(to.p, to.p_error + rounding, to.n, ray.o - to.p);
+        ray.d = target - ray.o;
+        t_max = 1.0f - 0x1p-20f;
+    }
+    if (!RayCaster::acceptable(ray, t_max)) {
+        ++stats.rejected;
+        return true;
+    }
+    if (stats.recorder) stats.recorder->push_back({ray, t_max, RayKind::Shadow});
+    return caster_->any(ray, t_max);
+}
+
+Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {
+    if (!hit.emits) return {};
+    return emitted(lights_->emitters[parts_->records[hit.record].emitter], hit.s.ng, hit.s.uv, w, lambda);
+}
+
+Spectrum World::emitted(Emitter const& e, Vec3 n, Vec2 uv, Vec3 w, Wavelengths const& lambda) const {
+    if (!e.light->two_sided && dot(n, w) <= 0.0f) return {};
+    Spectrum const radiance = e.radiance.sample(lambda);
+    if (!e.light->image.valid()) return radiance;
+    Vec3 const rgb = assets_->pyramid(e.light->image).bilerp_rgb(0, {uv.x, 1.0f - uv.y}, Wrap::Clamp);
+    return radiance * rgb_to_spectrum(max(rgb, Vec3{0.0f}), SpectrumRole::Unbounded, lambda);
+}
+
+Spectrum World::environment(Vec3 w, Wavelengths const& lambda) const {
+    Spectrum sum;
+    for (LightId const id : lights_->infinite)
+        sum += environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
+    return sum;
+}
+std::vector<LightId> const& World::infinite_lights() const { return lights_->infinite; }
+Spectrum World::environment(LightId id, Vec3 w, Wavelengths const& lambda) const {
+    return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
+}
+
+std::optional<LightSample> World::sample_light(Vec3 p, float u_choose, Vec2 u,
+                                               Wavelengths const& lambda) const {
+    if (lights_->choice.empty()) return std::nullopt;
+    auto const chosen = lights_->choice.sample(u_choose);
+    LightTable::Entry const& entry = lights_->entries[chosen.index];
+    if (entry.record == kNoInstance) {
+        auto s = sample_light_without_surface(LightId{entry.part}, p, u, lambda);
+        if (s) s->pdf *= chosen.pmf;
+        return s;
+    }
+    // A point uniform by area, its density turned into solid angle: p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
+    ObjectRecord const& record = parts_->records[entry.record];
+    InstanceRecord const* instance =
+        entry.instance == kNoInstance ? nullptr : &parts_->instances[entry.instance];
+    ShapeSample const point = sample_part(record, instance, entry.part, u);
+    float const area_pdf = entry.area_pdf > 0.0f ? entry.area_pdf : point.pdf_area;
+    Vec3 const to_light = point.p - p;
+    float const r2 = length_squared(to_light);
+    if (!(r2 > 0.0f)) return std::nullopt;
+    LightSample s;
+    s.wi = to_light / std::sqrt(r2);
+    float const cos_light = abs_dot(point.n, s.wi);
+    if (!(cos_light > 0.0f) || !(area_pdf > 0.0f)) return std::nullopt;
+    s.pdf = chosen.pmf * area_pdf * r2 / cos_light;
+    if (!std::isfinite(s.pdf)) return std::nullopt;
+    s.radiance = emitted(lights_->emitters[record.emitter], point.n, point.uv, -s.wi, lambda);
+    s.p = point.p;
+    s.p_error = point.p_error;
+    s.n = point.n;
+    return s;
+}
+
+std::optional<LightSample> World::sample_light_without_surface(LightId id, Vec3 p, Vec2 u,
+                                                               Wavelengths const& lambda) const {
+    return nephroid::sample_light((*scene_)[id], lights_->data[id.value], *assets_, p, u, lambda);
+}
+
+float World::light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const {
+    ObjectRecord const& record = parts_->records[hit.record];
+    if (!record.emits() || lights_->choice.empty()) return 0.0f;
+    InstanceRecord const* instance = hit.instance == kNoInstance ? nullptr : &parts_->instances[hit.instance];
+    std::uint32_t const entry = (instance ? instance->first_light : 0) + record.first_light + hit.part;
+    float const cos_light = abs_dot(hit.s.ng, w);
+    if (!(cos_light > 0.0f)) return 0.0f;
+    float const known = lights_->entries[entry].area_pdf;
+    float const area_pdf = known > 0.0f ? known : part_pdf(record, instance, hit.part, hit.hit_uv, hit.s.ng);
+    return lights_->choice.pmf(entry) * area_pdf * distance_squared(hit.s.p, p) / cos_light;
+}
+
+float World::infinite_light_pdf(LightId id, Vec3 w) const {
+    if (lights_->choice.empty()) return 0.0f;
+    return lights_->choice.pmf(lights_->entry_of_light[id.value]) *
+           environment_pdf((*scene_)[id], lights_->data[id.value], w);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# options.sh PROGRAM: help, and every option with a value that it cannot mean: exit code 2 and a message that names it.
+source "$(dirname "$0")/lib.sh"
+
+run 0 --help
+prints "render"
+prints "Exit codes"
+silent err
+run 0 --version
+prints nephroid
+for command in render info merge compare; do
+    run 0 $command --help
+    prints "--help"
+done
+run 0 render --help
+for option in --spp --time --integrator --set --size --crop --color --seed --threads --passes --checkpoint --resume --quiet --log maxdepth; do
+    prints "$option"
+done
+run 2
+run 2 rendre scene.pbrt
+run 2 render
+says scene
+run 2 render scene.pbrt --bogus
+says --bogus
+
+# OPTION VALUE, and what else the message has to say.
+bad() {
+    local option=$1 value=$2
+    run 2 render scene.pbrt "$option" "$value"
+    says "$option"
+    shift 2
+    for word in "$@"; do says "$word"; done
+    (($(wc -c <err) < 400)) || fail "a message of $(wc -c <err) bytes for $option $value"
+    silent out
+}
+for value in 0 -1 x 1.5 99999999999; do bad --spp "$value"; done
+for value in 5x -1s 0 s nan; do bad --time "$value"; done
+bad --integrator foo path whitted direct
+for value in 10 0x10 -1x4 8x8x8 x8 8x axb; do bad --size "$value"; done
+for value in 1,2,3 10,10,5,5 100,100,200,200 0,0,33,24 -1,0,5,5 a; do bad --crop "$value"; done
+bad --color blue rgb spectral
+for value in x -1 1.5; do bad --seed "$value"; done
+for value in 0 2000 x -1; do bad --threads "$value"; done
+for value in 5:5 7:5 5 a:b -1:4 1:2:3 :4; do bad --passes "$value"; done
+for value in 0 -3 x nan; do bad --checkpoint-every "$value"; done
+bad --log xml json
+for value in x nan inf; do bad --exposure "$value"; done
+for value in a.bmp a b.exr.txt; do bad -o "$value" .exr; done
+bad --set foo=1 "did you mean"
+bad --set maxdeth=1 'did you mean "maxdepth"'
+bad --set samplr=sobol 'did you mean "sampler"'
+bad --set maxdepth key=value
+for value in maxdepth=x maxdepth=-3 maxdepth= segments=0 roulette=maybe alpha=0 alpha=2 alpha=nan samplelights=maybe mis=2 \
+    hemisphere=flat sampler=halton xsamples=2 jitter=true filter=none radius=-1 radius=x iso=0 iso=nan maxcomponentvalue=-1; do
+    bad --set "$value" "--set ${value%%=*}"
+done
+run 2 render scene.pbrt --set sampler=stratified --set xsamples=0
+says "--set xsamples"
+run 2 render scene.pbrt --integrator direct --set alpha=0.5
+says "--set alpha"
+
+# A limit, missing files, and places that cannot be written: known before anything is rendered.
+run 3 render scene.pbrt --size 100000x100000
+run 4 render missing.pbrt
+says missing.pbrt
+run 4 info missing.pbrt
+run 4 merge missing.film.exr -o a.exr
+run 4 compare missing.exr missing.exr
+run 4 render scene.pbrt --resume missing.film.exr
+says missing.film.exr
+mkdir folder.exr
+before() {
+    local option=$1 value=$2
+    SECONDS=0
+    run 4 render scene.pbrt --spp 1000000 "$option" "$value"
+    says "$option"
+    ((SECONDS < 10)) || fail "$option $value was noticed after $SECONDS s"
+}
+for option in -o --checkpoint --stats; do
+    before $option nowhere/a.exr
+    before $option folder.exr
+    before $option /proc/a.exr
+done
+if ((EUID != 0)); then
+    mkdir locked
+    chmod a-w locked
+    before -o locked/a.exr
+fi
+run 2 merge scene.pbrt -o a.exr
+says scene.pbrt
+run 2 merge
+run 2 compare scene.pbrt scene.pbrt
+run 2 render .
+rmdir locked 2>/dev/null
+rmdir folder.exr
+only scene.pbrt
+finish

@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# outputs.sh PROGRAM: what a render writes and says, and what info and compare say of it.
+source "$(dirname "$0")/lib.sh"
+
+# Every kind of picture; stdout carries their paths and nothing else.
+kinds=(a.exr a.png a.jpg a.jpeg a.pfm a.hdr a.film.exr)
+args=()
+for k in "${kinds[@]}"; do args+=(-o "$k"); done
+run 0 render scene.pbrt "${args[@]}"
+for k in "${kinds[@]}"; do exists "$k"; done
+cmp -s out <(for k in "${kinds[@]}"; do echo "$PWD/$k"; done) || fail "stdout: $(cat out)"
+only scene.pbrt "${kinds[@]}"
+signature() { [[ $(head -c "$2" "$1" | od -An -tx1 | tr -d ' \n') == "$3" ]] || fail "$1 is no such file"; }
+signature a.exr 4 762f3101
+signature a.film.exr 4 762f3101
+signature a.png 8 89504e470d0a1a0a
+signature a.jpg 3 ffd8ff
+signature a.pfm 2 5046
+signature a.hdr 2 233f
+says "approximated or ignored"
+says "rays"
+rm "${kinds[@]}"
+
+# Without -o the scene's own name, in the folder where the program was started.
+run 0 render scene.pbrt
+prints "$PWD/named.exr"
+only scene.pbrt named.exr
+rm named.exr
+
+# A file that was there is replaced whole, through symbolic links too.
+echo old >b.png
+ln -s b.png link.png
+run 0 render scene.pbrt -o link.png --quiet
+silent err
+[[ -L link.png ]] || fail "the link was replaced"
+signature b.png 4 89504e47
+rm b.png link.png
+
+# --quiet says nothing; --log json says JSON, line by line, and ends with the statistics.
+run 0 render scene.pbrt -o a.exr --quiet
+silent err
+run 0 render scene.pbrt -o a.exr --quiet --stats stats.json
+grep -q '"samples": 1536' stats.json || fail "stats.json: $(cat stats.json)"
+rm stats.json
+run 0 render scene.pbrt -o a.exr --log json --spp 20
+# Objects on a line each: balanced braces outside strings, and keys that are strings.
+awk '
+    { line = $0; gsub(/\\./, "", line); gsub(/"[^"]*"/, "s", line)
+      n = gsub(/\{/, "{", line); m = gsub(/\}/, "}", line)
+      if (line !~ /^\{.*\}$/ || n != m) { print "no JSON: " $0; bad = 1 }
+      gsub(/s:(s|-?[0-9.]+(e[-+]?[0-9]+)?|true|false|null)/, "p", line)
+      while (gsub(/s:\{p?(,p)*\}/, "p", line)) ;
+      if (line !~ /^\{p(,p)*\}$/) { print "no JSON: " $0; bad = 1 } }
+    END { exit bad || NR == 0 }' err >awk.out || fail "$(cat awk.out)"
+rm awk.out
+grep -q '"event":"progress"' err || fail "no progress in the log"
+tail -1 err | grep -q '"event":"done"' || fail "the log does not end with what was done"
+grep -q '"event":"notes","count":1' err || fail "the log does not count the notes"
+
+# Notes with their place.
+run 0 info scene.pbrt
+prints "scene.pbrt:12"
+prints '"height"'
+run 0 info scene.pbrt --json
+prints '"notes"'
+prints "scene.pbrt:12"
+
+# Pictures that are equal, and pictures that are not.
+run 0 render scene.pbrt -o b.exr --quiet
+run 0 render scene.pbrt -o a.exr --quiet
+run 0 compare a.exr b.exr
+prints "RMSE            0"
+silent err
+run 0 compare a.exr b.exr --json
+prints '"rmse": 0.0'
+run 0 render scene.pbrt -o b.exr --quiet --seed 5
+run 0 compare a.exr b.exr
+! grep -q "RMSE            0$" out || fail "different pictures compare as equal"
+run 0 render scene.pbrt -o c.exr --quiet --size 8x8
+run 2 compare a.exr c.exr
+says "same size"
+rm a.exr b.exr c.exr
+
+# No lights: black, and said. Samples that overflow: dropped, counted, exit code 6, and the picture is there.
+grep -v LightSource scene.pbrt >dark.pbrt
+run 0 render dark.pbrt -o d.exr
+says "no lights"
+run 0 compare d.exr d.exr
+prints "against 0"
+{
+    printf 'PF\n2 2\n-1.0\n'
+    for _ in {1..12}; do printf '\xe6\xb1\x61\x7f'; done # 3e38
+} >sun.pfm
+sed 's/"infinite"/"infinite" "string filename" "sun.pfm"/' scene.pbrt >bright.pbrt
+run 6 render bright.pbrt -o e.exr
+says DROPPED
+exists e.exr
+# Light beyond all floats is refused with its place.
+sed 's/"rgb I" \[ 9 9 9 \]/"rgb I" [ 1e38 1e38 1e38 ] "float scale" 1e30/' scene.pbrt >bright.pbrt
+run 2 render bright.pbrt -o f.exr
+says "bright.pbrt:6"
+absent f.exr
+rm d.exr e.exr dark.pbrt bright.pbrt sun.pfm
+only scene.pbrt
+finish

@@ -1,0 +1,151 @@
+// Blocks, objects and instances, and where directives may stand.
+#include "helpers.h"
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+TEST_CASE("attribute blocks save the graphics state") {
+    auto const scene = read_world(R"(
+        AttributeBegin
+          Translate 1 0 0
+          ReverseOrientation
+          AreaLightSource "diffuse"
+          Material "dielectric"
+          Shape "sphere"
+        AttributeEnd
+        TransformBegin
+          ReverseOrientation ReverseOrientation
+          Shape "sphere"
+        TransformEnd)");
+    auto const& objects = scene.world().objects;
+    REQUIRE(objects.size() == 2);
+    CHECK(objects[0].reverse_orientation);
+    CHECK(objects[0].light.has_value());
+    CHECK(objects[0].to_group.m[0][3] == 1);
+    material_of<DielectricMaterial>(scene, 0);
+    CHECK_FALSE(objects[1].reverse_orientation);
+    CHECK_FALSE(objects[1].light.has_value());
+    CHECK(objects[1].to_group.m[0][3] == 0);
+    // pbrt's default: diffuse 0.5
+    auto const& gray =
+        texture_of<ConstantSpectrumTexture>(scene, material_of<DiffuseMaterial>(scene, 1).reflectance);
+    CHECK(as<ConstantSpd>(gray.value).value == 0.5f);
+    CHECK(contains(notes(scene), "TransformBegin is deprecated"));
+}
+
+TEST_CASE("unbalanced blocks") {
+    CHECK(error_in_world("AttributeEnd") == "t.pbrt:2: AttributeEnd without its Begin");
+    CHECK(error_in_world("\nAttributeBegin\n") == "t.pbrt:3: AttributeBegin without an AttributeEnd");
+    CHECK(error_in_world("ObjectBegin \"a\"") == "t.pbrt:2: ObjectBegin without an ObjectEnd");
+    CHECK(error_in_world("ObjectEnd") == "t.pbrt:2: ObjectEnd without its Begin");
+    CHECK(error_in_world("ObjectBegin \"a\" AttributeBegin\nObjectEnd") ==
+          "t.pbrt:3: ObjectEnd closes what AttributeBegin opened at t.pbrt:2");
+    CHECK(error_in_world("ObjectBegin \"a\"\nAttributeEnd") ==
+          "t.pbrt:3: AttributeEnd closes what ObjectBegin opened at t.pbrt:2");
+}
+
+TEST_CASE("two hundred thousand nested blocks") {
+    std::string text;
+    for (int i = 0; i < 200000; ++i) text += "AttributeBegin ";
+    text += "Shape \"sphere\" ";
+    for (int i = 0; i < 200000; ++i) text += "AttributeEnd ";
+    CHECK(read_world(text).world().objects.size() == 1);
+}
+
+TEST_CASE("instances") {
+    auto const scene = read_world(R"(
+        Translate 1 0 0
+        ObjectBegin "a"
+          Translate 0 2 0
+          Shape "sphere"
+        ObjectEnd
+        Shape "disk"
+        ObjectBegin "b"
+          Scale 2 2 2
+          ObjectInstance "a"
+        ObjectEnd
+        Translate 0 0 3
+        ObjectInstance "b"
+        ObjectInstance "b")");
+    REQUIRE(scene.groups.size() == 3);
+    CHECK(scene.groups[1].name == "a");
+    REQUIRE(scene.groups[1].objects.size() == 1);
+    // As in pbrt, the transform at ObjectBegin counts for the shapes inside.
+    CHECK(scene.groups[1].objects[0].to_group.m[0][3] == 1);
+    CHECK(scene.groups[1].objects[0].to_group.m[1][3] == 2);
+    REQUIRE(scene.groups[2].instances.size() == 1);
+    CHECK(scene.groups[2].instances[0].group == GroupId{1});
+    CHECK(scene.groups[2].instances[0].to_parent == AffineRows{{{2, 0, 0, 1}, {0, 2, 0, 0}, {0, 0, 2, 0}}});
+    REQUIRE(scene.world().instances.size() == 2);
+    CHECK(scene.world().instances[1].group == GroupId{2});
+    CHECK(scene.world().instances[1].to_parent == AffineRows{{{1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 3}}});
+    CHECK(scene.world().objects.size() == 1);
+    CHECK(notes(scene).empty());
+}
+
+TEST_CASE("instances that cannot be") {
+    CHECK(error_in_world("ObjectBegin \"tree\" ObjectEnd\nObjectInstance \"tee\"") ==
+          "t.pbrt:3: no object \"tee\" is defined (did you mean \"tree\"?)");
+    CHECK(error_in_world("ObjectBegin \"a\"\nObjectInstance \"a\" ObjectEnd") ==
+          "t.pbrt:3: object \"a\" contains itself");
+    CHECK(contains(error_in_world("ObjectBegin \"a\"\nObjectBegin \"b\""),
+                   "t.pbrt:3: ObjectBegin inside another object"));
+    CHECK(error_in_world("ObjectBegin \"a\" ObjectEnd\nObjectBegin \"a\"") ==
+          "t.pbrt:3: object \"a\" is already defined at t.pbrt:2");
+    CHECK(contains(
+        error_in_world(
+            "ObjectBegin \"a\" ObjectEnd Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]\nObjectInstance \"a\""),
+        "t.pbrt:3: the transform of an instance"));
+    // Defined later is fine, as in pbrt.
+    auto const scene = read_world("ObjectInstance \"a\" ObjectBegin \"a\" Shape \"sphere\" ObjectEnd");
+    CHECK(scene.groups.at(1).objects.size() == 1);
+}
+
+TEST_CASE("area lights inside objects are kept and noted") {
+    auto const scene = read_world(
+        "ObjectBegin \"a\" AreaLightSource \"diffuse\" Shape \"sphere\" ObjectEnd ObjectInstance \"a\"");
+    CHECK(scene.groups[1].objects[0].light.has_value());
+    CHECK(contains(notes(scene), "an area light inside an object"));
+}
+
+TEST_CASE("what may stand before WorldBegin, and what after") {
+    CHECK(error_in_world("WorldBegin") == "t.pbrt:2: a second WorldBegin; a scene has one");
+    for (char const* text :
+         {"Camera \"perspective\"", "Film \"rgb\"", "Sampler \"sobol\"", "Integrator \"path\"",
+          "PixelFilter \"box\"", "Accelerator \"bvh\"", "TransformTimes 0 1"}) {
+        CAPTURE(text);
+        CHECK(contains(error_in_world(text), "must stand before WorldBegin"));
+        CHECK(error_in(std::string(text) + "\nWorldBegin") == "no error");
+    }
+    for (char const* text :
+         {"Shape \"sphere\"", "LightSource \"point\"", "AreaLightSource \"diffuse\"",
+          "AttributeBegin AttributeEnd", "Material \"diffuse\"", "Texture \"a\" \"float\" \"constant\"",
+          "ReverseOrientation", "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"",
+          "ObjectBegin \"a\" ObjectEnd"}) {
+        CAPTURE(text);
+        CHECK(contains(error_in(text), "must stand after WorldBegin"));
+        CHECK(error_in_world(text) == "no error");
+    }
+}
+
+TEST_CASE("unknown directives") {
+    CHECK(error_in_world("Shapes \"sphere\"") ==
+          "t.pbrt:2: unknown directive Shapes (did you mean \"Shape\"?)");
+    CHECK(error_in_world("\n\"sphere\"") ==
+          "t.pbrt:3: \"sphere\" stands where a directive such as Shape should be");
+    CHECK(contains(error_in_world("\n]"), "t.pbrt:3: \"]\" stands where"));
+    CHECK(contains(error_in("SurfaceIntegrator \"path\""), "in pbrt-v4 it is Integrator"));
+    CHECK(contains(notes(read_world("WorldEnd")), "t.pbrt:2: WorldEnd is of pbrt-v3"));
+}
+
+TEST_CASE("media are noted") {
+    auto const scene = read(
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 "
+        "1]\nWorldBegin\nMediumInterface \"fog\" \"\"\nMediumInterface \"\" Shape \"sphere\"");
+    CHECK(scene.world().objects.size() == 1);
+    CHECK(contains(notes(scene), "t.pbrt:1: participating media"));
+    CHECK(contains(notes(scene), "t.pbrt:3: participating media"));
+    CHECK(scene.notes.size() == 2);
+    CHECK(contains(error_in("MakeNamedMedium \"a\"\nMakeNamedMedium \"a\""),
+                   "t.pbrt:2: medium \"a\" is already defined"));
+}

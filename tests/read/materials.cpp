@@ -1,0 +1,223 @@
+// Materials and textures.
+#include "helpers.h"
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+/// The material of a sphere after `text`.
+Scene with(std::string const& text) { return read_world(text + "\nShape \"sphere\""); }
+Spd spectrum(Scene const& scene, TextureId id) {
+    return texture_of<ConstantSpectrumTexture>(scene, id).value;
+}
+}  // namespace
+
+TEST_CASE("materials and their defaults") {
+    auto scene = with("Material \"diffuse\" \"rgb reflectance\" [0.1 0.2 0.3]");
+    CHECK(as<RgbAlbedoSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene).reflectance)).rgb ==
+          Vec3{0.1f, 0.2f, 0.3f});
+    scene = with("Material \"diffuse\"");
+    CHECK(as<ConstantSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene).reflectance)).value == 0.5f);
+    scene = with("Material \"dielectric\"");
+    CHECK(as<ConstantSpd>(material_of<DielectricMaterial>(scene).eta).value == 1.5f);
+    scene = with("Material \"dielectric\" \"float eta\" 1.33");
+    CHECK(as<ConstantSpd>(material_of<DielectricMaterial>(scene).eta).value == 1.33f);
+    scene = with("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
+    CHECK(as<NamedSpd>(material_of<DielectricMaterial>(scene).eta).name == "glass-BK7");
+    scene = with("Material \"thindielectric\" \"float eta\" 1.2");
+    CHECK(as<ConstantSpd>(material_of<ThinDielectricMaterial>(scene).eta).value == 1.2f);
+    scene = with("Material \"conductor\"");
+    CHECK(as<NamedSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).eta)).name == "metal-Cu-eta");
+    CHECK(as<NamedSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).k)).name == "metal-Cu-k");
+    CHECK(texture_of<ConstantSpectrumTexture>(scene, material_of<ConductorMaterial>(scene).k).role ==
+          SpectrumRole::Unbounded);
+    CHECK(notes(scene).empty());
+    scene = with("Material \"conductor\" \"rgb reflectance\" [1 0.5 0]");
+    CHECK_FALSE(material_of<ConductorMaterial>(scene).eta.valid());
+    CHECK(as<RgbAlbedoSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).reflectance)).rgb.y == 0.5f);
+    material_of<InterfaceMaterial>(with("Material \"interface\""));
+    scene = with("Material \"\"");
+    material_of<InterfaceMaterial>(scene);
+    CHECK(contains(notes(scene), "it is \"interface\""));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"float eta\" 0"), "must be above 0"));
+    CHECK(
+        contains(error_in_world(
+                     "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"spectrum eta\" \"metal-Cu-eta\""),
+                 "not both"));
+}
+
+TEST_CASE("what is not rendered yet stands in and is noted") {
+    auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"float roughness\" 0.1");
+    CHECK(as<RgbAlbedoSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene).reflectance)).rgb.x == 0.1f);
+    CHECK(contains(notes(scene), "t.pbrt:2: Material \"coateddiffuse\""));
+    scene = with(
+        "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" "
+        "\"metal-Ag-k\"");
+    CHECK(as<NamedSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).eta)).name == "metal-Ag-eta");
+    for (char const* type : {"diffusetransmission", "subsurface", "hair", "measured"}) {
+        CAPTURE(type);
+        scene = with("Material \"" + std::string(type) + "\" \"float eta\" 1.3");
+        material_of<DiffuseMaterial>(scene);
+        CHECK(scene.notes.size() == 1);
+    }
+    scene = with(
+        "Material \"dielectric\" \"float roughness\" 0.1 \"texture displacement\" \"d\" \"string normalmap\" "
+        "\"n.png\"");
+    CHECK(contains(notes(scene), "roughness is not rendered yet"));
+    CHECK(contains(notes(scene), "displacement is not rendered yet"));
+    CHECK(contains(notes(scene), "normal maps are not rendered yet"));
+    CHECK(notes(with("Material \"conductor\" \"float uroughness\" 0 \"float vroughness\" 0 \"bool "
+                     "remaproughness\" false"))
+              .empty());
+}
+
+TEST_CASE("unknown and old materials") {
+    CHECK(contains(
+        error_in_world("Material \"matte\""),
+        "t.pbrt:2: Material \"matte\": material \"matte\" is of pbrt-v3; in pbrt-v4 write \"diffuse\""));
+    CHECK(contains(error_in_world("Material \"difuse\""), "did you mean \"diffuse\"?"));
+}
+
+TEST_CASE("named materials") {
+    auto const scene = read_world(R"(NamedMaterial "later" Shape "sphere"
+        MakeNamedMaterial "red" "string type" "diffuse" "rgb reflectance" [1 0 0]
+        MakeNamedMaterial "later" "string type" "dielectric"
+        NamedMaterial "red" Shape "sphere" Shape "sphere")");
+    material_of<DielectricMaterial>(scene, 0);
+    material_of<DiffuseMaterial>(scene, 1);
+    CHECK(scene.world().objects[1].material == scene.world().objects[2].material);
+    CHECK(scene[scene.world().objects[1].material].name == "red");
+    CHECK(scene.locate(scene[scene.world().objects[1].material].where) == "t.pbrt:3");
+    CHECK(error_in_world("MakeNamedMaterial \"red\" \"string type\" \"diffuse\"\nNamedMaterial \"rad\"") ==
+          "t.pbrt:3: no material \"rad\" is defined (did you mean \"red\"?)");
+    CHECK(contains(error_in_world("MakeNamedMaterial \"a\""), "needs a \"string type\""));
+    CHECK(contains(error_in_world("MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial "
+                                  "\"a\" \"string type\" \"diffuse\""),
+                   "t.pbrt:3: material \"a\" is already defined"));
+}
+
+TEST_CASE("mixed materials") {
+    std::string const two =
+        "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" "
+        "\"dielectric\"\n";
+    auto const scene =
+        with(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.25");
+    auto const& m = material_of<MixMaterial>(scene);
+    CHECK(scene[m.a].name == "a");
+    CHECK(scene[m.b].name == "b");
+    CHECK(texture_of<ConstantFloatTexture>(scene, m.amount).value == 0.25f);
+    CHECK(contains(error_in_world("Material \"mix\" \"string materials\" [\"a\" \"b\"]"),
+                   "no material \"a\" is defined before"));
+    CHECK(contains(
+        error_in_world("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]"),
+        "is defined before"));
+    CHECK(contains(error_in_world("Material \"mix\""), "needs \"string materials\" with two names"));
+}
+
+TEST_CASE("textures") {
+    auto const scene = with(R"(
+        Scale 2 2 2
+        Texture "i" "spectrum" "imagemap" "string filename" "/a.png" "string wrap" "clamp" "float scale" 3 "bool invert" true
+            "string encoding" "gamma 2.2" "string filter" "trilinear" "float uscale" 4 "float vdelta" 5
+        Texture "c" "spectrum" "checkerboard" "texture tex1" "i" "rgb tex2" [0.5 0.5 0.5] "integer dimension" 3
+        Texture "f" "float" "constant" "float value" 0.75
+        Texture "s" "spectrum" "scale" "texture tex" "c" "texture scale" "f"
+        Texture "m" "spectrum" "mix" "texture tex1" "s"
+        Identity
+        Material "diffuse" "texture reflectance" "m")");
+    auto const& mix = texture_of<MixTexture>(scene, material_of<DiffuseMaterial>(scene).reflectance);
+    CHECK(texture_of<ConstantFloatTexture>(scene, mix.amount).value == 0.5f);
+    CHECK(as<ConstantSpd>(spectrum(scene, mix.tex2)).value == 1);
+    auto const& scaled = texture_of<ScaleTexture>(scene, mix.tex1);
+    CHECK(texture_of<ConstantFloatTexture>(scene, scaled.scale).value == 0.75f);
+    auto const& checks = texture_of<CheckerboardTexture>(scene, scaled.tex);
+    CHECK(checks.dimension == 3);
+    CHECK(checks.world_to_texture.m[0][0] == 0.5);
+    auto const& image = texture_of<ImageTexture>(scene, checks.tex1);
+    CHECK(scene[image.image].path == "/a.png");
+    CHECK(scene[image.image].encoding == "gamma 2.2");
+    CHECK(image.wrap == WrapMode::Clamp);
+    CHECK(image.filter == FilterMode::Trilinear);
+    CHECK(image.scale == 3);
+    CHECK(image.invert);
+    CHECK(image.is_spectrum);
+    CHECK(as<UvMapping>(image.mapping).su == 4);
+    CHECK(as<UvMapping>(image.mapping).dv == 5);
+    CHECK(notes(scene).empty());
+}
+
+TEST_CASE("texture mappings") {
+    auto const mapping = [](std::string const& text) {
+        auto const scene =
+            with("Translate 1 0 0 Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"/a.png\" " +
+                 text + " Identity Material \"diffuse\" \"texture reflectance\" \"t\"");
+        return texture_of<ImageTexture>(scene, material_of<DiffuseMaterial>(scene).reflectance).mapping;
+    };
+    CHECK(as<SphericalMapping>(mapping("\"string mapping\" \"spherical\"")).world_to_texture.m[0][3] == -1);
+    CHECK(as<CylindricalMapping>(mapping("\"string mapping\" \"cylindrical\"")).world_to_texture.m[0][3] ==
+          -1);
+    auto const planar =
+        as<PlanarMapping>(mapping("\"string mapping\" \"planar\" \"vector3 v1\" [0 0 2] \"float udelta\" 3"));
+    CHECK(planar.v1 == Vec3{0, 0, 2});
+    CHECK(planar.v2 == Vec3{0, 1, 0});
+    CHECK(planar.du == 3);
+    CHECK(planar.world_to_texture.m[0][3] == -1);
+    CHECK(contains(error_of([&] { mapping("\"string mapping\" \"cubic\""); }), "use one of \"uv\""));
+}
+
+TEST_CASE("one texture in two roles") {
+    auto const scene = with(R"(Texture "t" "spectrum" "constant" "rgb value" [0.5 0.5 0.5]
+        Material "diffuse" "texture reflectance" "t" Shape "sphere"
+        Material "conductor" "texture eta" "t" "texture k" "t")");
+    as<RgbAlbedoSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene, 0).reflectance));
+    auto const& metal = material_of<ConductorMaterial>(scene, 1);
+    as<RgbUnboundedSpd>(spectrum(scene, metal.eta));
+    CHECK(metal.eta == metal.k);
+}
+
+TEST_CASE("textures that cannot be") {
+    CHECK(error_in_world("Texture \"a\" \"spectrum\" \"scale\"\n \"texture tex\" \"b\"\nTexture \"b\" "
+                         "\"spectrum\" \"scale\" \"texture tex\" \"a\"") ==
+          "t.pbrt:3: no spectrum texture \"b\" is defined before this one");
+    CHECK(error_in_world("Texture \"a\" \"spectrum\" \"scale\" \"texture tex\" \"a\"") ==
+          "t.pbrt:2: no spectrum texture \"a\" is defined before this one");
+    CHECK(error_in_world("Texture \"wood\" \"spectrum\" \"constant\"\nMaterial \"diffuse\" \"texture "
+                         "reflectance\" \"wod\"") ==
+          "t.pbrt:3: no spectrum texture \"wod\" is defined (did you mean \"wood\"?)");
+    CHECK(contains(
+        error_in_world(
+            "Texture \"f\" \"float\" \"constant\"\nMaterial \"diffuse\" \"texture reflectance\" \"f\""),
+        "needs a spectrum texture, and \"f\" is a float texture"));
+    CHECK(contains(error_in_world("Texture \"a\" \"color\" \"constant\""), "\"color\" is pbrt-v3's name"));
+    CHECK(
+        contains(error_in_world("Texture \"a\" \"float\" \"constant\"\nTexture \"a\" \"float\" \"constant\""),
+                 "t.pbrt:3: texture \"a\" is already defined at t.pbrt:2"));
+    CHECK(contains(error_in_world("Texture \"a\" \"float\" \"imagemap\""), "needs a \"string filename\""));
+    CHECK(contains(error_in_world("Texture \"a\" \"float\" \"chekerboard\""),
+                   "did you mean \"checkerboard\"?"));
+    std::string chain = "Texture \"t0\" \"float\" \"constant\"\n";
+    for (int i = 1; i < 5000; ++i)
+        chain += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\" \"t" +
+                 std::to_string(i - 1) + "\"\n";
+    CHECK(contains(error_in_world(chain), "nested more than 1000 deep"));
+}
+
+TEST_CASE("unused textures are checked, but not kept") {
+    auto const scene =
+        with("Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"/a.png\" \"float uscal\" 2");
+    CHECK(scene.images.empty());
+    CHECK(scene.textures.size() == 1);  // the default material's
+    CHECK(contains(notes(scene), "did you mean \"uscale\"?"));
+}
+
+TEST_CASE("textures that are not rendered yet") {
+    for (char const* text :
+         {"\"spectrum\" \"bilerp\"", "\"spectrum\" \"dots\"", "\"float\" \"fbm\"", "\"spectrum\" \"marble\"",
+          "\"float\" \"windy\"", "\"float\" \"wrinkled\" \"integer octaves\" 4",
+          "\"spectrum\" \"directionmix\"", "\"float\" \"ptex\""}) {
+        CAPTURE(text);
+        auto const scene = with(std::string("Texture \"t\" ") + text);
+        CHECK(scene.notes.size() == 1);
+        CHECK(contains(notes(scene), "is not rendered yet"));
+    }
+}

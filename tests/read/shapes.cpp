@@ -1,0 +1,146 @@
+// Shapes and lights: parameters and defaults.
+#include "helpers.h"
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+TEST_CASE("quadrics") {
+    auto const scene = read_world(R"(
+        Shape "sphere" "float radius" 2 "float phimax" 90
+        Shape "sphere" "float radius" 2 "float zmin" 5 "float zmax" -1
+        Shape "cylinder"
+        Shape "disk" "float height" 3 "float innerradius" 0.5)");
+    auto const& s = shape_of<Sphere>(scene, 0);
+    CHECK(s.radius == 2);
+    CHECK(s.z_min == -2);
+    CHECK(s.z_max == 2);
+    CHECK(s.phi_max == doctest::Approx(kPiOver2));
+    CHECK(shape_of<Sphere>(scene, 1).z_min == -1);
+    CHECK(shape_of<Sphere>(scene, 1).z_max == 2);
+    auto const& c = shape_of<Cylinder>(scene, 2);
+    CHECK(c.radius == 1);
+    CHECK(c.z_min == -1);
+    CHECK(c.z_max == 1);
+    CHECK(c.phi_max == kTwoPi);
+    auto const& d = shape_of<Disk>(scene, 3);
+    CHECK(d.height == 3);
+    CHECK(d.radius == 1);
+    CHECK(d.inner_radius == 0.5f);
+}
+
+TEST_CASE("triangle meshes") {
+    auto const scene = read_world(R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0]
+        Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0] "integer indices" [0 1 2 1 3 2])");
+    CHECK(shape_of<TriangleMesh>(scene, 0).triangles == std::vector<Vec3i>{{0, 1, 2}});
+    CHECK(shape_of<TriangleMesh>(scene, 1).triangles == std::vector<Vec3i>{{0, 1, 2}, {1, 3, 2}});
+    CHECK(shape_of<TriangleMesh>(scene, 1).p[3] == Vec3{1, 1, 0});
+    std::string const square = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n";
+    CHECK(contains(error_in_world(square), "needs \"integer indices\""));
+    CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 4]"),
+                   "t.pbrt:3: Shape \"trianglemesh\": \"indices\": 4 is not a point; there are 4"));
+    CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 -1]"), "-1 is not a point"));
+    CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 2 3]"),
+                   "4 entries are not a multiple of 3"));
+    CHECK(contains(error_in_world("Shape \"trianglemesh\""), "needs \"point3 P\""));
+    auto const short_uv = read_world(square + "\"integer indices\" [0 1 2] \"point2 uv\" [0 0]");
+    CHECK(shape_of<TriangleMesh>(short_uv).uv.empty());
+    CHECK(contains(notes(short_uv), "\"uv\" has 1 entries for 4 points, and is dropped"));
+}
+
+TEST_CASE("patches, subdivision, and shapes of our own") {
+    auto const scene = read_world(R"(
+        Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]
+        Shape "loopsubdiv" "integer levels" 2 "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2]
+        Shape "box" "point3 lo" [1 0 0] "point3 hi" [0 2 3]
+        Shape "quad")");
+    CHECK(shape_of<BilinearMesh>(scene, 0).patches == std::vector<std::array<int, 4>>{{0, 1, 2, 3}});
+    CHECK(shape_of<LoopSubdivision>(scene, 1).levels == 2);
+    CHECK(shape_of<Box>(scene, 2).lo == Vec3{0, 0, 0});
+    CHECK(shape_of<Box>(scene, 2).hi == Vec3{1, 2, 3});
+    CHECK(shape_of<Quad>(scene, 3).edge_u == Vec3{2, 0, 0});
+    CHECK(contains(error_in_world("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]"),
+                   "needs \"integer indices\" unless it has just 4 points"));
+}
+
+TEST_CASE("unknown shapes are left out") {
+    auto const scene = read_world("Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0]\nShape \"spere\"");
+    CHECK(scene.world().objects.empty());
+    CHECK(contains(notes(scene), "t.pbrt:2: Shape \"curve\": is not rendered yet: left out"));
+    CHECK(contains(notes(scene),
+                   "t.pbrt:3: Shape \"spere\": is an unknown shape: left out (did you mean \"sphere\"?)"));
+}
+
+TEST_CASE("alpha") {
+    auto const scene = read_world(R"(Shape "sphere" "float alpha" 1
+        Shape "sphere" "float alpha" 0
+        Shape "curve" "texture alpha" "a"
+        Shape "sphere" "texture alpha" "a"
+        Texture "a" "float" "constant" "float value" 0.5
+        AreaLightSource "diffuse" Shape "sphere" "float alpha" 0)");
+    auto const& o = scene.world().objects;
+    REQUIRE(o.size() == 3);
+    CHECK_FALSE(o[0].alpha.valid());
+    CHECK(texture_of<ConstantFloatTexture>(scene, o[1].alpha).value == 0.5f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, o[2].alpha).value == 0);
+    CHECK(contains(notes(scene), "\"alpha\" is not rendered yet"));
+    CHECK(error_in_world("Shape \"sphere\"\n \"texture alpha\" \"nope\"") ==
+          "t.pbrt:3: no float texture \"nope\" is defined");
+}
+
+TEST_CASE("lights") {
+    auto const scene = read_world(R"(
+        Translate 1 2 3
+        LightSource "point" "rgb I" [1 2 3] "float scale" 4 "float power" 5 "point3 from" [6 7 8]
+        LightSource "spot" "point3 to" [1 0 0] "float coneangle" 60 "float conedeltaangle" 30
+        LightSource "distant" "float illuminance" 9
+        LightSource "infinite" "string filename" "/sky.exr" "string mapping" "latlong" "float scale" 2
+        LightSource "infinite" "blackbody L" 5000
+        LightSource "projection" "string filename" "/slide.png" "float fov" 40 "float power" 40)");
+    REQUIRE(scene.lights.size() == 6);
+    auto const& p = as<PointLight>(scene.lights[0].kind);
+    CHECK(as<RgbIlluminantSpd>(p.intensity).rgb == Vec3{1, 2, 3});
+    CHECK(p.scale == 4);
+    CHECK(p.power == 5);
+    CHECK(p.from == Vec3{6, 7, 8});
+    CHECK(scene.lights[0].to_world.m[2][3] == 3);
+    auto const& s = as<SpotLight>(scene.lights[1].kind);
+    CHECK(s.to == Vec3{1, 0, 0});
+    CHECK(s.cone_angle == doctest::Approx(kPi / 3));
+    CHECK(s.cone_delta == doctest::Approx(kPi / 6));
+    CHECK(s.power == -1);
+    CHECK(as<DistantLight>(scene.lights[2].kind).illuminance == 9);
+    CHECK(as<DistantLight>(scene.lights[2].kind).to == Vec3{0, 0, 1});
+    auto const& sky = as<InfiniteLight>(scene.lights[3].kind);
+    CHECK(scene[sky.image].path == "/sky.exr");
+    CHECK(sky.mapping == EnvironmentMapping::LatLong);
+    CHECK(sky.scale == 2);
+    CHECK(as<BlackbodySpd>(as<InfiniteLight>(scene.lights[4].kind).radiance).kelvin == 5000);
+    CHECK(as<PointLight>(scene.lights[5].kind).power == 40);
+    CHECK(scene.notes.size() == 1);
+    CHECK(contains(notes(scene), "t.pbrt:9: LightSource \"projection\": \"projection\" is not rendered yet"));
+
+    CHECK(contains(error_in_world("LightSource \"infinite\" \"rgb L\" [1 1 1] \"string filename\" \"a.exr\""),
+                   "not both"));
+    CHECK(contains(error_in_world("LightSource \"spot\" \"point3 to\" [0 0 0]"), "it has no direction"));
+    CHECK(contains(error_in_world("LightSource \"spott\""), "did you mean \"spot\"?"));
+    CHECK(contains(error_in_world("LightSource \"point\" \"blackbody I\" 0"), "must be above 0 K"));
+}
+
+TEST_CASE("area lights") {
+    auto const scene = read_world(
+        R"(AreaLightSource "diffuse" "rgb L" [3 2 1] "float scale" 2 "float power" 7 "bool twosided" true
+        Shape "sphere"
+        AreaLightSource "diffuse" "string filename" "/e.png" Shape "sphere"
+        Material "interface" Shape "sphere")");
+    auto const& l = *scene.world().objects[0].light;
+    CHECK(as<RgbIlluminantSpd>(l.radiance).rgb == Vec3{3, 2, 1});
+    CHECK(l.scale == 2);
+    CHECK(l.power == 7);
+    CHECK(l.two_sided);
+    CHECK(scene.locate(l.where) == "t.pbrt:2");
+    CHECK(scene[scene.world().objects[1].light->image].path == "/e.png");
+    // pbrt: interfaces do not emit
+    CHECK_FALSE(scene.world().objects[2].light.has_value());
+    CHECK(contains(notes(scene), "t.pbrt:5: a surface of \"interface\" does not emit"));
+    CHECK(contains(error_in_world("AreaLightSource \"area\""), "in pbrt-v4 it is \"diffuse\""));
+}

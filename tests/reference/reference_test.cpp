@@ -1,0 +1,121 @@
+// Real scenes, held against pictures that pbrt-v4 made of them with thousands of samples (CPU, path integrator).
+//
+// The pictures are no part of the project: NEPHROID_SHARED, or ../shared beside the sources, says where they are. A scene
+// is asserted as soon as all that it shows is rendered here; the others are rendered with few samples and their distance
+// is printed, with what is still missing. NEPHROID_FULL takes eight times the samples and halves the tolerances.
+#include "film/develop.h"
+#include "image/compare.h"
+#include "image/read.h"
+#include "read/read.h"
+#include "render/render.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+using namespace nephroid;
+
+namespace {
+
+struct Reference {
+    char const* name;     // of the picture
+    char const* scene;    // below the data folder
+    int passes;           // enough that noise stays well below the tolerance
+    char const* missing;  // why it is not asserted yet; null when it is
+};
+
+constexpr Reference kReferences[] = {
+    {"cornell-box", "pbrt4-minus/cornell-box/cornell-box.pbrt", 64, nullptr},
+    {"smallpt", "pbrt4-minus/cornell-box/smallpt.pbrt", 128, nullptr},
+    {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 8, "a rough conductor"},
+    {"lights-shapes", "references/pbrt-v4/lights-shapes.pbrt", 96, nullptr},
+    {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 8, "the projection light"},
+    {"lights-env", "references/pbrt-v4/lights-env.pbrt", 8, "rough conductors"},
+    {"materials", "references/pbrt-v4/materials.pbrt", 8, "rough, coated and transmitting materials"},
+    {"textures", "references/pbrt-v4/textures.pbrt", 8, "procedural textures, displacement, normal maps"},
+    {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 8, "coateddiffuse"},
+    {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 8, "coateddiffuse"},
+};
+
+std::filesystem::path data_folder() {
+    char const* const named = std::getenv("NEPHROID_SHARED");
+    auto const shared = named ? std::filesystem::path(named)
+                              : std::filesystem::path(NEPHROID_SOURCE_DIR).parent_path() / "shared";
+    return shared / "data";
+}
+
+bool is_full() { return std::getenv("NEPHROID_FULL") != nullptr; }
+
+struct Rendered {
+    Image picture;
+    std::uint64_t dropped = 0;
+};
+
+Rendered rendered(std::filesystem::path const& scene, Vec2i size, int passes) {
+    World const world = compile(read_scene(scene));
+    Settings settings = world.scene().settings;
+    settings.film.resolution = size;
+    settings.film.crop.reset();
+    RenderJob const job(world, settings);
+    Film film = job.make_film();
+    RenderControl control;
+    control.passes = {0, static_cast<std::uint64_t>(passes)};
+    render(job, control, film);
+    return {develop(film), film.dropped()};
+}
+
+bool is_finite(Image const& image) {
+    for (float const x : image.floats())
+        if (!std::isfinite(x)) return false;
+    return true;
+}
+
+/// R, G and B alone, whatever else a reference holds.
+Image rgb_of(Image const& image) {
+    Image out(PixelFormat::Float, image.width(), image.height(), {"R", "G", "B"});
+    char const* const names[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        int const from = image.channel(names[c]).value();
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) out.set(x, y, c, image.get(x, y, from));
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("pictures agree with pbrt-v4's") {
+    auto const data = data_folder();
+    auto const pictures = data / "references/pbrt-v4";
+    if (!std::filesystem::exists(pictures)) {
+        MESSAGE("SKIPPED: no pictures at ", pictures.string(), "; set NEPHROID_SHARED");
+        return;
+    }
+    for (Reference const& r : kReferences) {
+        CAPTURE(std::string(r.name));
+        Image const theirs = rgb_of(read_image(pictures / (std::string(r.name) + ".exr")));
+        int const passes = r.missing || !is_full() ? r.passes : 8 * r.passes;
+        auto const [ours, dropped] = rendered(data / r.scene, {theirs.width(), theirs.height()}, passes);
+
+        auto const a = channel_means(ours);
+        auto const b = channel_means(theirs);
+        double const binned_error = rel_mse(binned(ours, 16), binned(theirs, 16));
+        char line[256];
+        std::snprintf(line, sizeof line,
+                      "%-20s %5d passes   means %+.2f%% %+.2f%% %+.2f%%   binned relMSE %.2e   %s%s", r.name,
+                      passes, 100 * (a[0] / b[0] - 1), 100 * (a[1] / b[1] - 1), 100 * (a[2] / b[2] - 1),
+                      binned_error, r.missing ? "not yet: " : "", r.missing ? r.missing : "asserted");
+        MESSAGE(std::string(line));
+
+        CHECK(dropped == 0);
+        CHECK(is_finite(ours));  // negative numbers are colours outside sRGB, which theirs holds as well
+        if (r.missing) continue;
+        double const tolerance = is_full() ? 0.0025 : 0.005;
+        for (std::size_t c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]).epsilon(tolerance).scale(0));
+        CHECK(binned_error < (is_full() ? 5e-4 : 1e-3));
+    }
+}

@@ -1,0 +1,269 @@
+// Makes the meshes and textures of our scenes: make_meshes DIR writes DIR/meshes/*.ply and DIR/textures/*.
+// What it writes is checked in; a test makes it again and compares byte by byte. So that the last bit of somebody else's
+// sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256.
+// Lengths: centimetres for the cup, metres for the water, free for the rest. z is up.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+constexpr double kPi = std::numbers::pi;
+
+struct Mesh {
+    std::vector<Vec3> p, n;
+    std::vector<Vec2> uv;  // empty, or one per point
+    std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+// A surface over a grid of (columns + 1) * (rows + 1) points. `at(s, t)` adds the point of s, t in [0, 1].
+// Triangles run counter-clockwise as seen from the side where dp/ds x dp/dt points.
+void add_grid(Mesh& mesh, int columns, int rows, std::function<void(double, double)> const& at) {
+    auto const first = static_cast<std::int32_t>(mesh.p.size());
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i) at(double(i) / columns, double(j) / rows);
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            std::int32_t const a = first + j * (columns + 1) + i, b = a + 1, c = a + columns + 1, d = c + 1;
+            mesh.triangles.push_back({a, b, d});
+            mesh.triangles.push_back({a, d, c});
+        }
+}
+
+/// A point (r, z) of a profile, and the outward normal there in the same plane.
+struct ProfilePoint {
+    Vec2 p, n;
+};
+
+// The profile, turned around the z axis. It runs so that outside lies to its right: upwards for an outer wall.
+void add_lathe(Mesh& mesh, int columns, int rows, std::function<ProfilePoint(double)> const& profile) {
+    add_grid(mesh, columns, rows, [&](double s, double t) {
+        ProfilePoint const q = profile(t);
+        // The last column lies on the first one, exactly.
+        double const phi = s == 1 ? 0 : 2 * kPi * s, c = std::cos(phi), d = std::sin(phi);
+        mesh.p.emplace_back(q.p.x * c, q.p.x * d, q.p.y);
+        mesh.n.push_back(glm::normalize(Vec3(q.n.x * c, q.n.x * d, q.n.y)));
+    });
+}
+
+// Water: a tile of 2.5 m x 2.5 m around the origin that continues itself on all four sides. Sines with whole numbers of
+// periods on the tile, most of them running towards +x. Each bends the surface about as much (amplitude ~ 1 / k^2): long
+// waves are high, short ones sharpen the light. With a curvature of about 3/m in all, crests focus between 1 and 2 m below.
+Mesh waves() {
+    constexpr double size = 2.5, bend = 1.0;
+    constexpr std::array<std::array<int, 2>, 12> periods{{{2, 1},
+                                                          {1, -2},
+                                                          {3, 1},
+                                                          {2, -3},
+                                                          {3, 2},
+                                                          {1, 4},
+                                                          {4, -2},
+                                                          {5, 1},
+                                                          {3, 5},
+                                                          {-2, 5},
+                                                          {6, -3},
+                                                          {5, 5}}};
+    Mesh mesh;
+    add_grid(mesh, 72, 72, [&](double s, double t) {
+        double h = 0, dx = 0, dy = 0;
+        for (std::size_t i = 0; i < periods.size(); ++i) {
+            double const kx = 2 * kPi / size * periods[i][0], ky = 2 * kPi / size * periods[i][1];
+            double const amplitude = bend / (kx * kx + ky * ky);
+            // s, t = 1 has to give the very numbers of 0; phases by the golden ratio, which lines nothing up
+            double const phase = 2 * kPi * std::fmod(0.6180339887 * double(i + 1) * double(i + 2), 1.0);
+            double const angle =
+                2 * kPi * (periods[i][0] * std::fmod(s, 1.0) + periods[i][1] * std::fmod(t, 1.0)) + phase;
+            h += amplitude * std::sin(angle);
+            dx += amplitude * kx * std::cos(angle);
+            dy += amplitude * ky * std::cos(angle);
+        }
+        mesh.p.emplace_back((s - 0.5) * size, (t - 0.5) * size, h);
+        mesh.n.push_back(glm::normalize(Vec3(-dx, -dy, 1)));
+    });
+    return mesh;
+}
+
+// The cup's outer wall: a rounded foot of radius 3 that swells to the wall of radius 4.3, up to the lip at z = 9.
+Mesh cup_body() {
+    Mesh mesh;
+    add_lathe(mesh, 144, 12, [](double t) {
+        double const a = kPi / 2 * t;
+        return ProfilePoint{{3 + 1.3 * std::sin(a), 1.8 * (1 - std::cos(a))},
+                            glm::normalize(Vec2(std::sin(a) * 1.8, -std::cos(a) * 1.3))};
+    });
+    add_lathe(mesh, 144, 1, [](double t) { return ProfilePoint{{4.3, 1.8 + t * (9 - 1.8)}, {1, 0}}; });
+    return mesh;
+}
+
+// The lip: half a torus between the outer wall (radius 4.3) and the inner one (radius 4).
+Mesh cup_lip() {
+    Mesh mesh;
+    add_lathe(mesh, 144, 12, [](double t) {
+        double const a = kPi * t;
+        Vec2 const n{std::cos(a), std::sin(a)};
+        return ProfilePoint{Vec2(4.15, 9) + 0.15 * n, n};
+    });
+    return mesh;
+}
+
+// The handle: an elliptic tube along half an ellipse in the plane y = 0, on the side of +x; its ends are inside the wall.
+Mesh cup_handle() {
+    Mesh mesh;
+    add_grid(mesh, 24, 40, [&](double s, double t) {
+        double const a = kPi * (t - 0.5), b = s == 1 ? 0 : 2 * kPi * s;
+        Vec3 const centre{4.2 + 2.4 * std::cos(a), 0, 5.1 + 2.5 * std::sin(a)};
+        Vec3 const out = glm::normalize(Vec3(std::cos(a) / 2.4, 0, std::sin(a) / 2.5)), side{0, 1, 0};
+        double const wide = 0.5, thick = 0.28;
+        mesh.p.push_back(centre + out * (thick * std::cos(b)) + side * (wide * std::sin(b)));
+        mesh.n.push_back(glm::normalize(out * (std::cos(b) / thick) + side * (std::sin(b) / wide)));
+    });
+    return mesh;
+}
+
+// A fir: three cones, one over the other, 1 high and 0.6 wide; the trunk is the scene's own.
+Mesh fir() {
+    Mesh mesh;
+    struct Tier {
+        double low, high, radius;
+    };
+    for (Tier const tier : {Tier{0.15, 0.60, 0.30}, Tier{0.38, 0.80, 0.23}, Tier{0.60, 1.0, 0.16}}) {
+        double const height = tier.high - tier.low;
+        add_lathe(mesh, 14, 1, [&](double t) {  // from below the skirt to its edge
+            return ProfilePoint{{tier.radius * (0.2 + 0.8 * t), tier.low + 0.04 * (1 - t)}, {0, -1}};
+        });
+        add_lathe(mesh, 14, 1,
+                  [&](double t) {  // up to the tip, which is a small circle: no triangle is degenerate
+                      return ProfilePoint{{tier.radius * (1 - 0.98 * t), tier.low + height * t},
+                                          {height, tier.radius}};
+                  });
+    }
+    return mesh;
+}
+
+// A trefoil knot on a torus of radius 2, as a tube of radius 0.45, with (u, v) along and around.
+Mesh knot() {
+    Mesh mesh;
+    add_grid(mesh, 14, 180, [&](double s, double t) {
+        double const a = t == 1 ? 0 : 2 * kPi * t, b = s == 1 ? 0 : 2 * kPi * s;
+        double const r = 2 + std::cos(3 * a), c = std::cos(2 * a), d = std::sin(2 * a);
+        Vec3 const centre{r * c, r * d, std::sin(3 * a)};
+        Vec3 const tangent = glm::normalize(Vec3(-3 * std::sin(3 * a) * c - 2 * r * d,
+                                                 -3 * std::sin(3 * a) * d + 2 * r * c, 3 * std::cos(3 * a)));
+        Vec3 const from_core{std::cos(3 * a) * c, std::cos(3 * a) * d, std::sin(3 * a)};
+        Vec3 const side = glm::normalize(glm::cross(tangent, from_core)), out = glm::cross(side, tangent);
+        Vec3 const n = out * std::cos(b) + side * std::sin(b);
+        mesh.p.push_back(centre + 0.45 * n);
+        mesh.n.push_back(n);
+        mesh.uv.emplace_back(t, s);
+    });
+    return mesh;
+}
+
+float rounded(double x) { return static_cast<float>(std::round(x * 65536) / 65536) + 0.0f; }
+
+void little_endian(std::string& out, std::uint32_t bits) {
+    for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i) & 0xFF);
+}
+
+enum class Format { Ascii, Binary };
+
+std::string ply(Mesh const& mesh, Format format) {
+    bool const binary = format == Format::Binary, uv = !mesh.uv.empty();
+    std::string out = std::string("ply\nformat ") + (binary ? "binary_little_endian" : "ascii") + " 1.0\n";
+    out += "comment made by tools/make_meshes.cpp\nelement vertex " + std::to_string(mesh.p.size()) + "\n";
+    for (char const* name : {"x", "y", "z", "nx", "ny", "nz"})
+        out += std::string("property float ") + name + "\n";
+    if (uv) out += "property float u\nproperty float v\n";
+    out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
+    out += "property list uchar int vertex_indices\nend_header\n";
+
+    auto number = [&](double x) {
+        if (binary) {
+            little_endian(out, std::bit_cast<std::uint32_t>(rounded(x)));
+        } else {
+            std::array<char, 40> text{};
+            std::snprintf(text.data(), text.size(), "%.9g ", static_cast<double>(rounded(x)));
+            out += text.data();
+        }
+    };
+    for (std::size_t i = 0; i < mesh.p.size(); ++i) {
+        for (int k = 0; k < 3; ++k) number(mesh.p[i][k]);
+        for (int k = 0; k < 3; ++k) number(mesh.n[i][k]);
+        if (uv) number(mesh.uv[i].x), number(mesh.uv[i].y);
+        if (!binary) out.back() = '\n';
+    }
+    for (auto const& [a, b, c] : mesh.triangles) {
+        if (binary) {
+            out += '\3';
+            for (std::int32_t index : {a, b, c}) little_endian(out, static_cast<std::uint32_t>(index));
+        } else {
+            out += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
+        }
+    }
+    return out;
+}
+
+// A chart for the eye to find (u, v) on: red grows with u, green with v, lines every eighth, a frame, and one white corner
+// at (0, 0). 64 x 64 pixels, TGA without compression, lowest row first.
+std::string chart() {
+    constexpr int size = 64;
+    std::string out(18, '\0');
+    out[2] = 2;
+    out[12] = out[14] = size;
+    out[16] = 24;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            std::array<int, 3> rgb{48 + 3 * x, 48 + 3 * y, 96};
+            if (x % 8 == 0 || y % 8 == 0) rgb = {32, 32, 40};
+            if (x == size - 1 || y == size - 1) rgb = {32, 32, 40};
+            if (x > 0 && x < 8 && y > 0 && y < 8) rgb = {250, 250, 250};
+            for (int k : {2, 1, 0}) out += static_cast<char>(rgb[static_cast<std::size_t>(k)]);
+        }
+    return out;
+}
+
+void write(std::filesystem::path const& path, std::string const& bytes) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc != 2) {
+        std::fputs("usage: make_meshes DIR   writes DIR/meshes/*.ply and DIR/textures/*.tga\n", stderr);
+        return 2;
+    }
+    std::filesystem::path const dir = argv[1];
+    write(dir / "meshes/waves.ply", ply(waves(), Format::Binary));
+    write(dir / "meshes/cup-body.ply", ply(cup_body(), Format::Binary));
+    write(dir / "meshes/cup-lip.ply", ply(cup_lip(), Format::Binary));
+    write(dir / "meshes/cup-handle.ply", ply(cup_handle(), Format::Binary));
+    write(dir / "meshes/knot.ply", ply(knot(), Format::Binary));
+    write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
+    write(dir / "textures/chart.tga", chart());
+    return 0;
+} catch (std::exception const& error) {
+    std::fprintf(stderr, "make_meshes: %s\n", error.what());
+    return 4;
+}
