@@ -275,9 +275,9 @@ void rays_of(std::string const& name, std::shared_ptr<Rays> const& r) {
         lights->push_back(
             r->world.sample_light(r->hits[i].s.p, squares()[i].y, squares()[i], Wavelengths::rgb())
                 .value_or(LightSample{}));
-    add("world/occluded/" + name, r->hits, [r, lights, i = 0u](SurfaceHit const& hit) mutable {
+    add("world/transmittance/" + name, r->hits, [r, lights, i = 0u](SurfaceHit const& hit) mutable {
         RayStats s;
-        return r->world.occluded(hit, (*lights)[i++ % kArguments], s);
+        return r->world.transmittance(hit, (*lights)[i++ % kArguments], s);
     });
 }
 

@@ -78,21 +78,35 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
         textures_.push_back(d);
     }
     auto const needs_point = [&](TextureId id) { return id.valid() && !textures_[id.value].flat; };
-    std::function<bool(MaterialId)> textured = [&](MaterialId id) -> bool {
-        return match(
-            scene[id].kind, [&](DiffuseMaterial const& m) { return needs_point(m.reflectance); },
+    std::vector<std::uint8_t> known(scene.materials.size());
+    materials_.resize(scene.materials.size());
+    // What a mix needs and lets pass is what its parts do; each material is looked at once, however often it is mixed.
+    std::function<MaterialData const&(MaterialId)> look = [&](MaterialId id) -> MaterialData const& {
+        MaterialData& d = materials_[id.value];
+        if (known[id.value]) return d;
+        known[id.value] = 1;
+        match(
+            scene[id].kind, [&](DiffuseMaterial const& m) { d.textured = needs_point(m.reflectance); },
             [&](ConductorMaterial const& m) {
-                return needs_point(m.eta) || needs_point(m.k) || needs_point(m.reflectance);
+                d.textured = needs_point(m.eta) || needs_point(m.k) || needs_point(m.reflectance);
             },
-            [&](MixMaterial const& m) { return needs_point(m.amount) || textured(m.a) || textured(m.b); },
-            [](auto const&) { return false; });
+            [&](InterfaceMaterial const&) { d.passes = true; },
+            [&](MixMaterial const& m) {
+                MaterialData const& first = look(m.a);
+                MaterialData const& second = look(m.b);
+                d.mix = true;
+                d.textured = needs_point(m.amount) || first.textured || second.textured;
+                d.passes = first.passes || second.passes;
+            },
+            [](auto const&) {});
+        return d;
     };
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         Material const& material = scene.materials[i];
-        MaterialData d;
+        look(MaterialId{i});
         auto const compile_eta = [&](Spd const& eta) {
             try {
-                d.eta = spectra_.compile(eta, SpectrumRole::Unbounded);
+                materials_[i].eta = spectra_.compile(eta, SpectrumRole::Unbounded);
             } catch (Error const& e) {
                 throw Error(e.kind(), scene.locate(material.where) + ": " + e.what());
             }
@@ -100,8 +114,6 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
         match(
             material.kind, [&](DielectricMaterial const& m) { compile_eta(m.eta); },
             [&](ThinDielectricMaterial const& m) { compile_eta(m.eta); }, [](auto const&) {});
-        d.textured = textured(MaterialId{i});
-        materials_.push_back(d);
     }
 }
 

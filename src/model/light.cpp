@@ -80,6 +80,24 @@ float solid_angle_element(EnvironmentMapping mapping, Vec3 w) {
     if (mapping == EnvironmentMapping::EqualArea) return 4.0f * kPi;
     return 2.0f * kPi * kPi * std::sqrt(sqr(w.x) + sqr(w.y));
 }
+/// How a density over directions of light space changes on the way to the world: d(local) / d(world) = |M w|^3 / |det M|,
+/// which is 1 for rotations and uniform scales.
+float direction_density(LightData const& d, Vec3 local) {
+    if (d.volume_scale == 0.0f) return 1.0f;
+    float const stretch = length(d.to_world.vector(local));
+    return stretch * stretch * stretch / d.volume_scale;
+}
+/// |det M|, or 0 where M maps balls to balls and so keeps densities over directions.
+float volume_scale(Transform const& to_world) {
+    Vec3 const x = to_world.vector({1, 0, 0});
+    Vec3 const y = to_world.vector({0, 1, 0});
+    Vec3 const z = to_world.vector({0, 0, 1});
+    float const scale2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0f;
+    auto const small = [&](float v) { return std::abs(v) <= 1e-6f * scale2; };
+    bool const similar = small(dot(x, y)) && small(dot(y, z)) && small(dot(z, x)) &&
+                         small(dot(x, x) - scale2) && small(dot(y, y) - scale2) && small(dot(z, z) - scale2);
+    return similar ? 0.0f : abs_dot(x, cross_accurate(y, z));
+}
 Wrap environment_wrap(EnvironmentMapping mapping) {
     return mapping == EnvironmentMapping::EqualArea ? Wrap::OctahedralSphere : Wrap::Repeat;
 }
@@ -129,6 +147,7 @@ std::shared_ptr<EnvironmentTable const> environment_table(EnvironmentMapping map
 LightData prepare_infinite(InfiniteLight const& l, Light const& light, Assets& assets) {
     LightData d;
     d.to_world = placed(light, assets);
+    d.volume_scale = volume_scale(d.to_world);
     double const pi = static_cast<double>(kPi);
     if (!l.image.valid()) {
         // Illuminance of a surface facing a sky of luminance 1 is pi (pbrt-v4).
@@ -242,8 +261,9 @@ std::optional<LightSample> sample_light(Light const& light, LightData const& d, 
             Vec2 const st = d.table->distribution.sample(u, &square_pdf);
             float const element = solid_angle_element(d.mapping, st);
             if (!(square_pdf > 0.0f) || !(element > 0.0f)) return std::nullopt;
-            s.wi = normalize(d.to_world.vector(square_to_direction(d.mapping, st)));
-            s.pdf = square_pdf / element;
+            Vec3 const local = square_to_direction(d.mapping, st);
+            s.wi = normalize(d.to_world.vector(local));
+            s.pdf = square_pdf / element * direction_density(d, local);
             s.radiance = image_radiance(d, environment_rgb(d.mapping, assets.pyramid(l.image), st), lambda);
             return s;
         });
@@ -265,7 +285,7 @@ float environment_pdf(Light const& light, LightData const& d, Vec3 w) {
     Vec3 const local = normalize(d.to_world.vector_inverse(w));
     Vec2 const st = direction_to_square(d.mapping, local);
     float const element = solid_angle_element(d.mapping, local);
-    return element > 0.0f ? d.table->distribution.pdf(st) / element : 0.0f;
+    return element > 0.0f ? d.table->distribution.pdf(st) / element * direction_density(d, local) : 0.0f;
 }
 
 float power(Light const& light, LightData const& d, Assets const&, BoundingSphere const& scene) {
@@ -283,7 +303,7 @@ float power(Light const& light, LightData const& d, Assets const&, BoundingSpher
             if (l.image.valid()) {
                 // The table's mean over the square; by latitude it holds L sin(theta), whose mean is 2/pi that of L.
                 radiance *= d.image_scale * d.table->distribution.integral();
-                if (l.mapping == EnvironmentMapping::LatLong) radiance *= kPiOver2;
+                if (d.mapping == EnvironmentMapping::LatLong) radiance *= kPiOver2;
             }
             return 4.0f * kPi * disk * radiance;
         });

@@ -1,21 +1,37 @@
 #include "model/material.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid {
 
-MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& at, float u) {
+namespace {
+constexpr double kBelowOne = 1.0 - 0x1p-53;
+}
+
+MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& at, double& u) {
     while (auto const* mix = std::get_if<MixMaterial>(&assets.scene()[id].kind)) {
-        float const amount = clamp(evaluate_float(assets, mix->amount, at), 0.0f, 1.0f);
+        double const amount = static_cast<double>(clamp(evaluate_float(assets, mix->amount, at), 0.0f, 1.0f));
         if (u < amount) {
             id = mix->b;
-            u = std::fmin(u / amount, kOneMinusEpsilon);
+            u = std::min(u / amount, kBelowOne);
         } else {
             id = mix->a;
-            u = std::fmin((u - amount) / (1.0f - amount), kOneMinusEpsilon);
+            u = std::min((u - amount) / (1.0 - amount), kBelowOne);
         }
     }
     return id;
+}
+
+float interface_share(Assets const& assets, MaterialId id, TexturePoint const& at) {
+    return match(
+        assets.scene()[id].kind, [](InterfaceMaterial const&) { return 1.0f; },
+        [&](MixMaterial const& m) {
+            float const amount = clamp(evaluate_float(assets, m.amount, at), 0.0f, 1.0f);
+            return (1.0f - amount) * interface_share(assets, m.a, at) +
+                   amount * interface_share(assets, m.b, at);
+        },
+        [](auto const&) { return 0.0f; });
 }
 
 namespace {

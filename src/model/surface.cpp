@@ -8,9 +8,12 @@ namespace {
 /// that rounding happens again on the way in, so it is added to the offset (in target-space units).
 Vec3 round_trip_error(AffineMap const& map, Vec3 p_local, Vec3 p_error) {
     Vec3 const forward = map.point_error(p_local, p_error);
-    // Mapping back rounds by at most gamma(4) (|M^-1| |p| + …) <= a few ulps of the local magnitudes.
+    // Mapping back rounds, and so does the inverse that does it: by a few ulps of |M^-1| (|p| + |t|) in local space, which are
+    // R (|p| + |t|) out here, R = |M| |M^-1|. R's diagonal is at least 1 and its rows sum to at most round_trip, so that
+    // (R b)_i <= b_i + (round_trip - 1) max b.
     Vec3 const t = abs(Vec3{map.m[0][3], map.m[1][3], map.m[2][3]});
-    return forward + gamma_bound(8) * (map.magnify(abs(p_local)) + t);
+    Vec3 const b = map.magnify(abs(p_local)) + t;
+    return forward + gamma_bound(8) * (b + Vec3{(map.round_trip - 1.0f) * max_component(b)});
 }
 
 }  // namespace

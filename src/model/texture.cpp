@@ -69,16 +69,14 @@ TextureFilter filter_of(FilterMode f) {
 
 /// Which of the two inputs a checkerboard shows (PBRT 4th ed., 10.4.4, without its filtering).
 bool checkerboard_first(CheckerboardTexture const& t, TextureData const& data, TexturePoint const& at) {
-    int parity;
+    // Is floor(x) odd? In floats, which any coordinate fits.
+    auto const odd = [](float x) { return std::floor(x) - 2.0f * std::floor(0.5f * std::floor(x)) == 1.0f; };
     if (t.dimension == 2) {
         Vec2 const st = map_point(t.mapping, data.mapping, at).st;
-        parity = static_cast<int>(std::floor(st.x)) + static_cast<int>(std::floor(st.y));
-    } else {
-        Vec3 const p = data.mapping.point(at.p);
-        parity = static_cast<int>(std::floor(p.x)) + static_cast<int>(std::floor(p.y)) +
-                 static_cast<int>(std::floor(p.z));
+        return odd(st.x) == odd(st.y);
     }
-    return parity % 2 == 0;
+    Vec3 const p = data.mapping.point(at.p);
+    return (odd(p.x) != odd(p.y)) == odd(p.z);
 }
 
 }  // namespace

@@ -36,13 +36,16 @@ std::uint32_t permutation_element(std::uint32_t i, std::uint32_t n, std::uint32_
 }
 
 // Pass i belongs to block i / n; within the block, a random permutation named by (draw, block) gives it its cell.
-float PathSampler::stratified_1d(std::uint64_t key) const {
+double PathSampler::stratified_1d_fine(std::uint64_t key) const {
     std::uint32_t const n = std::max(1u, sequence_->x_strata * sequence_->y_strata);
     std::uint64_t const block = hash_keys(key, index_ / n);
     std::uint32_t const cell = permutation_element(index_ % n, n, static_cast<std::uint32_t>(block));
-    float const offset =
-        sequence_->jitter ? to_unit_float(static_cast<std::uint32_t>(hash_keys(block, index_ % n))) : 0.5f;
-    return std::min((static_cast<float>(cell) + offset) / static_cast<float>(n), kOneMinusEpsilon);
+    double const offset = sequence_->jitter ? to_unit_double(hash_keys(block, index_ % n)) : 0.5;
+    return std::min((static_cast<double>(cell) + offset) / static_cast<double>(n), 1.0 - 0x1p-53);
+}
+
+float PathSampler::stratified_1d(std::uint64_t key) const {
+    return std::min(static_cast<float>(stratified_1d_fine(key)), kOneMinusEpsilon);
 }
 
 Vec2 PathSampler::stratified_2d(std::uint64_t key) const {

@@ -4,6 +4,7 @@
 #include "walk.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nephroid {
 
@@ -100,8 +101,9 @@ std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange pass
                 Spectrum const radiance_seen = match(settings.integrator, [&](auto const& integrator) {
                     return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
                 });
-                if (!film.add(x, y, sensor_value(job, radiance_seen * camera.weight, lambda), f.weight))
-                    ++dropped;
+                Vec3 const value = c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
+                                             : sensor_value(job, radiance_seen * camera.weight, lambda);
+                if (!film.add(x, y, value, f.weight)) ++dropped;
                 if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
             }
         }

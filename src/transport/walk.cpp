@@ -39,6 +39,7 @@ TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit co
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance) {
     RayKind const kind = walk.vertex == 0 ? RayKind::Camera : RayKind::Bounce;
     SurfaceHit& hit = v.hit;
+    double mix = -1;  // what decides at mixes; not drawn yet
     for (int i = 0; i < kMaxInterfaces; ++i) {
         if (!c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit)) {
             for (LightId const light : c.world.infinite_lights()) {
@@ -55,7 +56,19 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
                 radiance += walk.beta * emitted * emission_weight(walk, weight, pdf);
             }
         }
-        if (!hit.interface) return true;
+        v.material = hit.material;
+        if (v.material.valid() && c.world.assets().data(v.material).mix) {
+            // One number for all mixes on this segment: resolving leaves a fresh one behind.
+            if (mix < 0) {
+                c.sampler.at(dimension::of(walk.vertex, dimension::kMix));
+                mix = c.sampler.next_1d_fine();
+            }
+            Assets const& assets = c.world.assets();
+            v.material = resolve_mix(assets, v.material, texture_point(c, walk, hit), mix);
+        }
+        if (hit.passage == Passage::Solid) return true;
+        bool const passes = std::holds_alternative<InterfaceMaterial>(c.world.scene()[v.material].kind);
+        if (!passes) return true;
         walk.ray = hit.spawn(walk.ray.d);
         walk.cone += hit.t;
     }
@@ -63,48 +76,48 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 }
 
 bool prepare(PathContext& c, Walk const& walk, Vertex& v) {
-    SurfaceHit const& hit = v.hit;
-    if (!hit.material.valid()) return false;
+    if (!v.material.valid()) return false;
     Assets const& assets = c.world.assets();
-    MaterialId material = hit.material;
     TexturePoint at;
-    if (assets.data(material).textured) at = texture_point(c, walk, hit);
-    if (std::holds_alternative<MixMaterial>(assets.scene()[material].kind)) {
-        c.sampler.at(dimension::of(walk.vertex, dimension::kMix));
-        material = resolve_mix(assets, material, at, c.sampler.next_1d());
-    }
-    auto const bsdf = make_bsdf(assets, material, at, c.lambda);
+    if (assets.data(v.material).textured) at = texture_point(c, walk, v.hit);
+    auto const bsdf = make_bsdf(assets, v.material, at, c.lambda);
     if (!bsdf) return false;
     v.bsdf = *bsdf;
-    v.frame = frame_from_z(hit.s.ns);
+    v.frame = frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
     return true;
 }
 
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
-    float const u_choose = c.sampler.next_1d();
+    double const u_choose = c.sampler.next_1d_fine();
     Vec2 const u = c.sampler.next_2d();
     auto const light = c.world.sample_light(v.hit.s.p, u_choose, u, c.lambda);
     if (!light || light->radiance.is_black()) return {};
     Vec3 const wi_local = v.frame.to_local(light->wi);
     Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
-    if (f.is_black() || c.world.occluded(v.hit, *light, c.stats)) return {};
+    if (f.is_black()) return {};
+    float const passing = c.world.transmittance(v.hit, *light, c.stats);
+    if (passing == 0.0f) return {};
     // A delta light cannot be found by scattering: its weight is 1.
     float const w = light->delta || !mis
                         ? 1.0f
                         : power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
-    return f * light->radiance * (abs_cos_theta(wi_local) * w / light->pdf);
+    return f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
 }
 
-bool follow(Walk& walk, Vertex const& v, BsdfSample const& s) {
+bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf);
     if (s.keep_hero && !walk.hero_only) {
         // The hero stands for all four lanes from here on (Wilkie et al. 2014).
         walk.beta = Spectrum(4.0f * walk.beta[0], 0, 0, 0);
         walk.hero_only = true;
     }
-    if (walk.beta.is_black() || !walk.beta.is_finite()) return false;
+    if (walk.beta.is_black()) return false;
+    if (!walk.beta.is_finite()) {
+        c.tainted = true;
+        return false;
+    }
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.pdf;
@@ -122,7 +135,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     float const lobe = smooth ? c.sampler.next_1d() : 0.0f;
     Vec2 const u = smooth ? Vec2{0, 0} : c.sampler.next_2d();
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, Mode::Radiance, c.hemisphere);
-    return s && follow(walk, v, *s);
+    return s && follow(c, walk, v, *s);
 }
 
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {

@@ -35,6 +35,7 @@ struct PathContext {
     PathSampler& sampler;
     RayStats& stats;
     HemisphereSampling hemisphere = HemisphereSampling::Cosine;
+    bool tainted = false;  // a throughput was not a number: the sample does not count
 };
 
 /// State of the path between two vertices.
@@ -63,6 +64,7 @@ struct Walk {
 /// handed around.
 struct Vertex {
     SurfaceHit hit;
+    MaterialId material;     // of the hit; a mix has been resolved
     Frame frame;             // shading
     Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
     Bsdf bsdf;
@@ -88,7 +90,7 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
 /// Chooses a direction and moves the walk on; false when the path ends.
 bool scatter(PathContext& c, Walk& walk, Vertex const& v);
 /// The same with a given sample, as of a branch of Whitted's tree.
-bool follow(Walk& walk, Vertex const& v, BsdfSample const& s);
+bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s);
 
 /// Russian roulette (Arvo & Kirk 1990): ends the walk, or makes up for those that were ended.
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette);

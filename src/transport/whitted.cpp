@@ -22,7 +22,7 @@ Spectrum trace(WhittedIntegrator const& p, PathContext& c, Walk walk, int depth,
     std::uint32_t child = 2 * node;
     for (auto const& branch : {branches.reflected, branches.transmitted}) {
         Walk next = walk;
-        if (branch && follow(next, v, *branch)) radiance += trace(p, c, next, depth + 1, child, nullptr);
+        if (branch && follow(c, next, v, *branch)) radiance += trace(p, c, next, depth + 1, child, nullptr);
         ++child;
     }
     return radiance;

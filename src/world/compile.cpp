@@ -7,7 +7,9 @@
 #include "world/world.h"
 #include "world_parts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace nephroid {
 
@@ -25,6 +27,20 @@ AffineMap to_map(Mat4 const& m) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = static_cast<float>(m.m[i][j]);
     return a;
+}
+
+/// AffineMap::round_trip of a chain of instances; nothing when it is singular.
+std::optional<float> round_trip(Mat4 const& m) {
+    auto const inv = inverse(m);
+    if (!inv) return std::nullopt;
+    double largest = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t k = 0; k < 3; ++k) row += std::abs(m.m[i][k] * inv->m[k][j]);
+        largest = std::max(largest, row);
+    }
+    return static_cast<float>(largest);
 }
 
 bool is_mesh(Shape const& s) {
@@ -84,15 +100,14 @@ std::unique_ptr<AnalyticPlace> place_of(Scene const& scene, Object const& o) {
     return p;
 }
 
-/// Interfaces are invisible unless they emit: without media there is nothing to do at them.
-bool is_invisible(Scene const& scene, Object const& o) {
-    return !o.light && o.material.valid() &&
-           std::holds_alternative<InterfaceMaterial>(scene[o.material].kind);
+Passage passage_of(Scene const& scene, Assets const& assets, Object const& o) {
+    if (!o.material.valid()) return Passage::Solid;
+    if (std::holds_alternative<InterfaceMaterial>(scene[o.material].kind)) return Passage::Interface;
+    return assets.data(o.material).passes ? Passage::Partly : Passage::Solid;
 }
-std::uint32_t mask_of(Scene const& scene, Object const& o) {
-    bool const see_through =
-        o.material.valid() && std::holds_alternative<InterfaceMaterial>(scene[o.material].kind);
-    return see_through ? RayCaster::kSeeThrough : RayCaster::kSolid;
+/// Interfaces are invisible unless they emit: without media there is nothing to do at them.
+bool is_invisible(Scene const& scene, Assets const& assets, Object const& o) {
+    return !o.light && passage_of(scene, assets, o) == Passage::Interface;
 }
 
 /// Emission beyond floats would be black or NaN somewhere on its way.
@@ -124,12 +139,13 @@ struct Builder {
             first_record.push_back(static_cast<std::uint32_t>(parts.records.size()));
             std::uint32_t lights_of_group = 0;
             for (Object const& o : g.objects) {
-                if (is_invisible(scene, o)) continue;
+                if (is_invisible(scene, assets, o)) continue;
                 ObjectRecord r;
                 r.object = &o;
                 r.material = o.material;
                 r.flip = flips(o);
-                r.interface = mask_of(scene, o) == RayCaster::kSeeThrough;
+                r.passage = passage_of(scene, assets, o);
+                parts.partly = parts.partly || r.passage == Passage::Partly;
                 r.place = place_of(scene, o);
                 r.textured = (o.material.valid() && assets.data(o.material).textured) ||
                              (o.light && o.light->image.valid());
@@ -181,10 +197,7 @@ struct Builder {
                 caster_group.push_back(kNotBuilt);
                 continue;
             }
-            std::vector<std::uint32_t> masks;
-            for (std::uint32_t i = 0; i < record_count[g]; ++i)
-                masks.push_back(mask_of(scene, *parts.records[first_record[g] + i].object));
-            caster_group.push_back(caster.add_group(parts.records, first_record[g], record_count[g], masks));
+            caster_group.push_back(caster.add_group(parts.records, first_record[g], record_count[g]));
         }
     }
 
@@ -194,10 +207,13 @@ struct Builder {
         for (Instance const& i : scene[group].instances) {
             Mat4 const m = to_world * to_matrix(i.to_parent);
             if (caster_group[i.group.value] != kNotBuilt) {
-                AffineMap const map = to_map(m);
-                if (!(std::abs(map.determinant()) > 0.0f) || !std::isfinite(map.determinant())) {
+                AffineMap map = to_map(m);
+                auto const there_and_back = round_trip(m);
+                if (!there_and_back || !(std::abs(map.determinant()) > 0.0f) ||
+                    !std::isfinite(map.determinant())) {
                     scene.note(i.where, "an instance with a singular transform was left out");
                 } else {
+                    map.round_trip = *there_and_back;
                     parts.instances.push_back({map, first_record[i.group.value], 0});
                     group_of_instance.push_back(caster_group[i.group.value]);
                 }

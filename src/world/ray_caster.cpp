@@ -148,7 +148,7 @@ RayCaster::~RayCaster() {
 }
 
 std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std::size_t first,
-                                   std::size_t count, std::vector<std::uint32_t> const& masks) {
+                                   std::size_t count) {
     RTCScene const scene = rtcNewScene(impl_->device);
     impl_->groups.push_back(scene);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -173,7 +173,7 @@ std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std
             rtcSetGeometryIntersectFunction(geometry, intersect_callback);
             rtcSetGeometryOccludedFunction(geometry, occluded_callback);
         }
-        rtcSetGeometryMask(geometry, masks[i]);
+        rtcSetGeometryMask(geometry, seen(record.passage));
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
@@ -196,7 +196,7 @@ void RayCaster::finish(std::vector<InstanceRecord> const& instances,
         RTCGeometry const geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, impl_->groups[group_of_instance[i]]);
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instances[i].to_world.m.data());
-        rtcSetGeometryMask(geometry, kSolid | kSeeThrough);
+        rtcSetGeometryMask(geometry, kAll);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(root, geometry, id + static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
@@ -228,9 +228,9 @@ void fill(RTCRay& r, Ray const& ray, float t_max, std::uint32_t mask) {
 }
 }  // namespace
 
-bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit) const {
+bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t sees) const {
     RTCRayHit rh;
-    fill(rh.ray, ray, t_max, kSolid | kSeeThrough);
+    fill(rh.ray, ray, t_max, sees);
     rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if NEPHROID_EMBREE == 4
@@ -254,7 +254,7 @@ bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit) const {
 
 bool RayCaster::any(Ray const& ray, float t_max) const {
     RTCRay r;
-    fill(r, ray, t_max, kSolid);
+    fill(r, ray, t_max, seen(Passage::Solid));
 #if NEPHROID_EMBREE == 4
     rtcOccluded1(impl_->groups.front(), &r);
 #else

@@ -20,8 +20,9 @@ struct RawHit {
 
 class RayCaster {
   public:
-    /// Which rays see a geometry.
-    static constexpr std::uint32_t kSolid = 1, kSeeThrough = 2;
+    /// Which surfaces a ray sees, as a set of bits by Passage.
+    static constexpr std::uint32_t seen(Passage p) { return 1u << static_cast<unsigned>(p); }
+    static constexpr std::uint32_t kAll = 7;
 
     RayCaster();
     ~RayCaster();
@@ -30,13 +31,13 @@ class RayCaster {
 
     /// A group's own objects; returns its number. Geometry ids are the objects' positions in `records`. The records and
     /// their objects must stay where they are.
-    std::uint32_t add_group(std::vector<ObjectRecord> const& records, std::size_t first, std::size_t count,
-                            std::vector<std::uint32_t> const& masks);
+    std::uint32_t add_group(std::vector<ObjectRecord> const& records, std::size_t first, std::size_t count);
     /// Puts group 0's objects and the given appearances of other groups into the scene that is traced.
     void finish(std::vector<InstanceRecord> const& instances,
                 std::vector<std::uint32_t> const& group_of_instance);
 
-    bool nearest(Ray const& ray, float t_max, RawHit& hit) const;
+    bool nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t sees = kAll) const;
+    /// Is anything solid in the way?
     bool any(Ray const& ray, float t_max) const;
     /// False for rays that must not reach Embree.
     static bool acceptable(Ray const& ray, float t_max);

@@ -2,6 +2,9 @@
 
 #include "scene/match.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nephroid {
 
 namespace {
@@ -84,19 +87,38 @@ std::uint32_t part_count(ObjectRecord const& r) {
 }
 
 float part_area(ObjectRecord const& r, InstanceRecord const* instance, std::uint32_t part) {
-    // E[1/pdf] over the part is its area; constant for triangles and similarities, so few points do.
-    bool const exact = std::holds_alternative<TriangleMesh>(r.object->shape);
-    int const n = exact ? 1 : 8;
-    double sum = 0;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            float const pdf = sample_part(r, instance, part,
-                                          {(static_cast<float>(i) + 0.5f) / static_cast<float>(n),
-                                           (static_cast<float>(j) + 0.5f) / static_cast<float>(n)})
-                                  .pdf_area;
-            if (pdf > 0.0f && std::isfinite(pdf)) sum += 1.0 / static_cast<double>(pdf);
-        }
-    return static_cast<float>(sum / (n * n));
+    // The area is the mean of 1/pdf over the square. That is the same everywhere for triangles and under similarities, where
+    // three by three points show it (two by two would fall for an ellipsoid's symmetry); else a midpoint rule is refined until
+    // it stands still.
+    auto const mean = [&](int n, bool& constant) {
+        double sum = 0;
+        double least = HUGE_VAL;
+        double greatest = 0;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                float const pdf = sample_part(r, instance, part,
+                                              {(static_cast<float>(i) + 0.5f) / static_cast<float>(n),
+                                               (static_cast<float>(j) + 0.5f) / static_cast<float>(n)})
+                                      .pdf_area;
+                if (!(pdf > 0.0f) || !std::isfinite(pdf)) continue;
+                double const area = 1.0 / static_cast<double>(pdf);
+                sum += area;
+                least = std::min(least, area);
+                greatest = std::max(greatest, area);
+            }
+        constant = greatest - least <= 1e-5 * greatest;
+        return sum / (n * n);
+    };
+    bool constant = false;
+    if (std::holds_alternative<TriangleMesh>(r.object->shape)) return static_cast<float>(mean(1, constant));
+    double area = mean(3, constant);
+    for (int n = 8; n <= 512 && !constant; n *= 2) {
+        bool same = false;
+        double const finer = mean(n, same);
+        constant = same || std::abs(finer - area) <= 1e-5 * finer;
+        area = finer;
+    }
+    return static_cast<float>(area);
 }
 
 }  // namespace nephroid

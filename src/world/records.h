@@ -26,9 +26,9 @@ struct ObjectRecord {
     std::uint32_t first_light = kNoLight;  // of part 0, relative to the appearance's first light
     std::uint32_t emitter = kNoLight;      // index of its emission
     MaterialId material;
-    bool flip = false;       // the surface's side is the other one
-    bool textured = false;   // wants uv and tangents
-    bool interface = false;  // light passes
+    bool flip = false;      // the surface's side is the other one
+    bool textured = false;  // wants uv and tangents
+    Passage passage = Passage::Solid;
 
     [[nodiscard]] bool emits() const { return first_light != kNoLight; }
 };

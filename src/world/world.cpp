@@ -1,6 +1,7 @@
 #include "world/world.h"
 
 #include "light_table.h"
+#include "model/material.h"
 #include "ray_caster.h"
 #include "scene/match.h"
 #include "world_parts.h"
@@ -57,6 +58,12 @@ bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats
     RawHit raw;
     if (!caster_->nearest(ray, t_max, raw)) return false;
     ++stats.hits;
+    complete(raw, hit);
+    return true;
+}
+
+/// From what the intersector says to a point on a surface.
+void World::complete(RawHit const& raw, SurfaceHit& hit) const {
     InstanceRecord const* instance = raw.instance == kNoInstance ? nullptr : &parts_->instances[raw.instance];
     std::uint32_t const index = (instance ? instance->first_record : 0) + raw.geometry;
     ObjectRecord const& record = parts_->records[index];
@@ -67,13 +74,12 @@ bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats
     hit.instance = raw.instance;
     hit.material = record.material;
     hit.emits = record.emits();
-    hit.interface = record.interface;
+    hit.passage = record.passage;
     hit.s = surface_at(record, instance, {static_cast<double>(raw.t), raw.u, raw.v, raw.primitive}, raw.local,
                        record.textured);
-    return true;
 }
 
-bool World::occluded(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
+float World::transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
     ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
     Ray ray;
     float t_max = kInfinity;
@@ -91,10 +97,32 @@ bool World::occluded(SurfaceHit const& from, LightSample const& to, RayStats& st
     }
     if (!RayCaster::acceptable(ray, t_max)) {
         ++stats.rejected;
-        return true;
+        return 0.0f;
     }
     if (stats.recorder) stats.recorder->push_back({ray, t_max, RayKind::Shadow});
-    return caster_->any(ray, t_max);
+    if (caster_->any(ray, t_max)) return 0.0f;
+    return parts_->partly ? passing_share(ray, t_max, stats) : 1.0f;
+}
+
+/// The product of the shares that partly passing surfaces on the way let through. Chance decides at hits (transport/walk.cpp);
+/// here its mean is at hand, which is the same on average and has no noise.
+float World::passing_share(Ray ray, float t_max, RayStats& stats) const {
+    Vec3 const end = ray.o + ray.d;
+    float share = 1;
+    RawHit raw;
+    while (share > 0.0f && RayCaster::acceptable(ray, t_max) &&
+           caster_->nearest(ray, t_max, raw, RayCaster::seen(Passage::Partly))) {
+        ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
+        SurfaceHit hit;
+        complete(raw, hit);
+        TexturePoint at;
+        at.p = hit.s.p;
+        at.uv = hit.s.uv;
+        share *= interface_share(*assets_, hit.material, at);
+        ray = hit.spawn(ray.d);
+        if (std::isfinite(t_max)) ray.d = end - ray.o;
+    }
+    return share;
 }
 
 Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {
@@ -121,7 +149,7 @@ Spectrum World::environment(LightId id, Vec3 w, Wavelengths const& lambda) const
     return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
 }
 
-std::optional<LightSample> World::sample_light(Vec3 p, float u_choose, Vec2 u,
+std::optional<LightSample> World::sample_light(Vec3 p, double u_choose, Vec2 u,
                                                Wavelengths const& lambda) const {
     if (lights_->choice.empty()) return std::nullopt;
     auto const chosen = lights_->choice.sample(u_choose);

@@ -11,6 +11,7 @@ struct WorldParts {
     std::vector<ObjectRecord> records;
     std::vector<InstanceRecord> instances;
     std::vector<std::uint32_t> first_record, record_count;  // by GroupId
+    bool partly = false;                                    // does any surface let a part of the light pass?
 
     /// How many records the group has whose first one is `first`.
     [[nodiscard]] std::uint32_t count_from(std::uint32_t first) const {

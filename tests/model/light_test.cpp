@@ -214,18 +214,18 @@ TEST_CASE("a constant sky: uniform, radiance by scale or by the illuminance of a
 
 TEST_CASE("environment pictures with a bright spot: samples by the density, which integrates to 1") {
     int const n = samples(200'000, 2'000'000);
-    double const alpha = sidak(4);
+    double const alpha = sidak(6);
     Picture const square("square", 32, 32, [](int x, int y) { return sky_with_sun(x, y, 20, 7); });
     Picture const lat_long("latlong", 48, 24, [](int x, int y) { return sky_with_sun(x, y, 47, 9); });
     for (bool const equal_area : {true, false})
-        for (bool const turn : {false, true}) {
+        for (Mat4 const& place : {Mat4{}, turned(), turned() * scale(1, 1, 3)}) {
             CAPTURE(equal_area);
-            CAPTURE(turn);
+            CAPTURE(place.m[2][2]);
             Lit const l(
                 InfiniteLight{RgbIlluminantSpd{{1, 1, 1}}, ImageId{0},
                               equal_area ? EnvironmentMapping::EqualArea : EnvironmentMapping::LatLong, 2,
                               -1},
-                turn ? turned() : Mat4{}, equal_area ? square.files() : lat_long.files());
+                place, equal_area ? square.files() : lat_long.files());
             // Bins finer than texels near the spot are not needed: expectations are integrated finely.
             SphereCells const cells(24, 48);
             std::vector<double> o(cells.size());
@@ -344,4 +344,8 @@ TEST_CASE("power, for choosing among lights, counts all that reaches the scene")
                 {}, lat_long.files());
     CHECK(watts(a) / watts(plain) == doctest::Approx(1).epsilon(0.01));
     CHECK(watts(b) / watts(plain) == doctest::Approx(1).epsilon(0.01));
+    // … also where the picture's shape says which mapping it is.
+    Lit const c(InfiniteLight{RgbIlluminantSpd{{1, 1, 1}}, ImageId{0}, EnvironmentMapping::BySize, 2, -1}, {},
+                lat_long.files());
+    CHECK(watts(c) / watts(plain) == doctest::Approx(1).epsilon(0.01));
 }

@@ -272,22 +272,35 @@ TEST_CASE("mixed materials: chosen as often as the amount says, and the random n
     int const n = samples(200'000, 1'000'000);
     std::vector<double> o(3);
     for (int i = 0; i < n; ++i) {
-        MaterialId const id = resolve_mix(assets, outer, {}, r.unit());
+        double u = r.uniform();
+        MaterialId const id = resolve_mix(assets, outer, {}, u);
+        REQUIRE((u >= 0 && u < 1));
         ++o[id == a ? 0 : id == b ? 1 : 2];
     }
     CHECK(chi_square(o, std::vector<double>{0.6 * 0.7 * n, 0.6 * 0.3 * n, 0.4 * n}).p >= 0.01);
     // The same with the inner mix on the other side.
     std::vector<double> p(3);
     for (int i = 0; i < n; ++i) {
-        MaterialId const id = resolve_mix(assets, mirrored, {}, r.unit());
+        double u = r.uniform();
+        MaterialId const id = resolve_mix(assets, mirrored, {}, u);
         ++p[id == a ? 0 : id == b ? 1 : 2];
     }
     CHECK(chi_square(p, std::vector<double>{0.6 * 0.7 * n, 0.6 * 0.3 * n, 0.4 * n}).p >= 0.01);
-    for (float const u : {0.0f, 0.5f, 1 - 0x1p-24f}) {
-        CHECK(resolve_mix(assets, never, {}, u) == a);
-        CHECK(resolve_mix(assets, always, {}, u) == b);
-        CHECK(resolve_mix(assets, a, {}, u) == a);
+    for (double const start : {0.0, 0.5, 1 - 0x1p-53}) {
+        auto const resolved = [&](MaterialId id) {
+            double u = start;
+            return resolve_mix(assets, id, {}, u);
+        };
+        CHECK(resolved(never) == a);
+        CHECK(resolved(always) == b);
+        CHECK(resolved(a) == a);
     }
+    CHECK(interface_share(assets, outer, {}) == doctest::Approx(0.4));
+    CHECK(interface_share(assets, mirrored, {}) == doctest::Approx(0.4));
+    CHECK(interface_share(assets, c, {}) == 1);
+    CHECK(interface_share(assets, never, {}) == 0);
+    CHECK(assets.data(outer).passes);
+    CHECK_FALSE(assets.data(inner).passes);
 }
 
 TEST_CASE("materials become scattering values") {

@@ -123,6 +123,49 @@ TEST_CASE("an interface is not there, except for what it emits") {
     }
 }
 
+TEST_CASE("a mixture with an interface lets its share of light through, for eyes and for shadows") {
+    for (float const share : {0.0f, 0.25f, 1.0f}) {
+        CAPTURE(share);
+        Scene s;
+        MaterialId const white = diffuse(s, 1.0f);
+        MaterialId const none = material(s, InterfaceMaterial{});
+        TextureId const t = s.add(Texture{ConstantFloatTexture{share}, {}});
+        MaterialId const veil = material(s, MixMaterial{white, none, t});
+        // Under a white sky a white veil cannot be seen, nor can two of them.
+        Scene furnace = s;
+        add(furnace, Sphere{}, veil);
+        add(furnace, Sphere{2, -2, 2}, veil);
+        furnace.add(sky());
+        look_parallel(furnace, {0, -5, 0}, {0, 1, 0}, 0.9f);
+        World const bright = compile(furnace);
+        check_mean(bright, settings(path(100)), 64, 1);
+        check_mean(bright, settings(naive(path(100))), 64, 1);
+        // Two black veils between a lamp and a floor: E = share^2 I / h^2, whichever way a path finds it.
+        MaterialId const soot = material(s, MixMaterial{diffuse(s, 0.0f), none, t});
+        add(s, floor_quad(50), diffuse(s, 0.5f));
+        add(s, floor_quad(50, 1), soot).to_group = shear(0.3);
+        add(s, rectangle({-9, -9, 1.5f}, {9, -9, 1.5f}, {9, 9, 1.5f}, {-9, 9, 1.5f}), soot);
+        Scene delta = s;
+        delta.add(point_light({0, 0, 2}, kPi));
+        look_at_point(delta, {0.1f, 0, 0.5f}, {0, 0, 0});
+        double const through = static_cast<double>(share) * static_cast<double>(share);
+        World const below = compile(delta);
+        check_mean(below, settings(path(1)), 64, through * 0.5 / 4);
+        check_mean(below, settings(WhittedIntegrator{1}), 64, through * 0.5 / 4);
+        // A disk of radius 2 at height 2: E = pi / 2.
+        Object& disk = add(s, Disk{2, 2});
+        disk.reverse_orientation = true;
+        disk.light = test::white(1);
+        look_at_point(s, {0.1f, 0, 0.5f}, {0, 0, 0});
+        World const area = compile(s);
+        for (auto const& p : all_ways(1)) check_mean(area, settings(p), 64, through * 0.25);
+        // Seen from between the veils, the disk shines through the upper one.
+        Scene up = s;
+        look_at_point(up, {0.1f, 0, 1.2f}, {0, 0, 2});
+        check_mean(compile(up), settings(path(0)), 64, static_cast<double>(share));
+    }
+}
+
 TEST_CASE("a light behind an interface that emits is found in two ways, and counts once") {
     // Disks of radius 1 at height 1 and of radius 2 at height 2: E = pi R^2 / (R^2 + h^2) = pi/2 each, L = rho E / pi.
     Scene s;

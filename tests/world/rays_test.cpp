@@ -48,10 +48,10 @@ TEST_CASE("rays that are not numbers are refused and counted, and abort nothing"
         LightSample to;
         to.p = {x, 0, 0};
         to.wi = {0, 0, -1};
-        CHECK(world.occluded(hit, to, stats));
+        CHECK(world.transmittance(hit, to, stats) == 0.0f);
         to.at_infinity = true;
         to.wi = {x, 0, 0};
-        CHECK(world.occluded(hit, to, stats));
+        CHECK(world.transmittance(hit, to, stats) == 0.0f);
         asked += 2;
     }
     CHECK(stats.rejected == asked);
@@ -77,7 +77,7 @@ TEST_CASE("any bits at all may be asked") {
         SurfaceHit from;
         from.s.p = ray.o;
         from.s.p_error = abs(ray.d);
-        (void)world.occluded(from, to, stats);
+        (void)world.transmittance(from, to, stats);
     }
     CHECK(stats.rays[1] == n);
     CHECK(stats.rejected > 0);
@@ -127,7 +127,7 @@ TEST_CASE("from inside a room every point of every wall is in sight") {
             Vec3 const nb = face_forward(b.s.ng, middle - b.s.p);
             if (std::min(dot(d, na), -dot(d, nb)) < 1e-3f * length(d)) continue;  // the same wall, or all but
             to.wi = normalize(d);
-            if (world.occluded(a, to, stats)) ++blocked;
+            if (world.transmittance(a, to, stats) == 0.0f) ++blocked;
         }
         // Far away, a point in a corner may be one rounding behind the next wall.
         CHECK(blocked <= (middle.x > 1e5f ? n / 2'000 : 0));
@@ -203,7 +203,7 @@ TEST_CASE("no light shades itself, wherever it is seen from") {
                     float const grazing = far > 0 ? 2e-3f : 1e-4f;
                     if (dot(light->wi, floor.s.ng) < grazing || dot(light->wi, -light->n) < grazing) continue;
                     ++lit;
-                    if (world.occluded(floor, *light, stats)) ++blocked;
+                    if (world.transmittance(floor, *light, stats) == 0.0f) ++blocked;
                 }
                 CHECK(stats.rejected == 0);
                 CHECK(lit > n / 20);

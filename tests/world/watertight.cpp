@@ -158,6 +158,10 @@ TEST_CASE("convex objects are never hit by rays that leave them") {
     list.push_back({"icosphere, far", alone(icosphere(3, 100), far), kFarCorner, 100});
     list.push_back(
         {"icosphere, instanced", alone_instanced(icosphere(3, 100), Mat4{}, turned), kFarCorner, 100});
+    // A plate, turned, flattened and turned again: rounding on the way back into the group is magnified a hundred times.
+    Mat4 const flattened = *rotate(40, 1, 2, 3) * scale(1, 1, 0.01) * *rotate(70, 3, 1, 1);
+    list.push_back({"sphere, flattened", alone_instanced(Sphere{1, -1, 1}, Mat4{}, flattened), {}, 1});
+    list.push_back({"icosphere, flattened", alone_instanced(icosphere(3, 1), Mat4{}, flattened), {}, 1});
     std::uint64_t const n = tries(1'000'000) / list.size() + 1;
     for (Try& t : list) {
         INFO(t.name, " of size ", t.reach);
@@ -166,8 +170,11 @@ TEST_CASE("convex objects are never hit by rays that leave them") {
         Vec3 const centre = world.bounds().centre();
         Leaving const r = leave(world, centre, t.reach, n);
         CHECK(r.hit_again == 0);
-        // At the edges of a box one rounding along a face is outside: there a ray may enter beside it.
-        if (t.name.starts_with("sphere") || t.name.starts_with("icosphere"))
+        // At the edges of a box one rounding along a face is outside: there a ray may enter beside it. So it may at the rim
+        // of a plate a hundred times as wide as it is thick.
+        if (t.name.ends_with("flattened"))
+            CHECK(r.not_held <= r.left / 1'000);
+        else if (t.name.starts_with("sphere") || t.name.starts_with("icosphere"))
             CHECK(r.not_held == 0);
         else
             CHECK(r.not_held <= r.left / (t.reach > 1 ? 2'000 : 50));

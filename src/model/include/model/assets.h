@@ -19,6 +19,8 @@ struct TextureData {
 struct MaterialData {
     RuntimeSpectrum eta;    // of a (thin) dielectric
     bool textured = false;  // needs uv and tangents at the hit
+    bool mix = false;       // has to be resolved at each hit …
+    bool passes = false;  // … and some of its parts, or it itself, let light pass as if nothing were there
 };
 
 class Assets {

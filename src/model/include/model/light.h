@@ -42,6 +42,7 @@ struct LightData {
     float cos_outer = -1, cos_inner = -1;
     EnvironmentMapping mapping = EnvironmentMapping::EqualArea;  // of an infinite image, resolved
     float image_scale = 1;                                       // infinite image: radiance per stored value
+    float volume_scale = 0;  // infinite image: |det to_world| where directions change their density, else 0
     std::shared_ptr<EnvironmentTable const> table;
 };
 

@@ -8,8 +8,10 @@
 
 namespace nephroid {
 
-/// Follows mixes down to one material: `u` in [0,1) decides, and is stretched on for the next level.
-MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& at, float u);
+/// Follows mixes down to one material: `u` in [0,1) decides, and is stretched to be fresh for the next level, or for the caller.
+MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& at, double& u);
+/// The probability with which resolve_mix ends at an interface: the share of light that passes as if nothing were there.
+float interface_share(Assets const& assets, MaterialId id, TexturePoint const& at);
 
 /// Nothing for an interface: light goes on. `id` must not be a mix (see resolve_mix).
 std::optional<Bsdf> make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at,

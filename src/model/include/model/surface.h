@@ -30,6 +30,8 @@ struct ShapeSample {
 /// An affine map by its 3x4 rows alone, for instances: it can do without an inverse, since normals go by cofactors.
 struct AffineMap {
     std::array<std::array<float, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    /// The largest row sum of |M| |M^-1|, >= 1: how a trip there and back magnifies roundings. 1 for scales along the axes.
+    float round_trip = 1;
 
     [[nodiscard]] Vec3 vector(Vec3 v) const {
         return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,

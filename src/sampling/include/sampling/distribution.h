@@ -11,7 +11,8 @@
 
 namespace nephroid {
 
-/// Walker's alias table (built by Vose 1991): one index in constant time.
+/// Walker's alias table (built by Vose 1991): one index in constant time. Takes a double: one number chooses a cell and then
+/// tosses its coin, and of a float's 24 bits a table of a million cells would leave four for the coin.
 class AliasTable {
   public:
     struct Sample {
@@ -27,7 +28,7 @@ class AliasTable {
     [[nodiscard]] bool empty() const { return bins_.empty(); }
     [[nodiscard]] std::size_t size() const { return bins_.size(); }
     [[nodiscard]] float pmf(std::uint32_t i) const { return bins_[i].p; }
-    [[nodiscard]] Sample sample(float u) const;
+    [[nodiscard]] Sample sample(double u) const;
     [[nodiscard]] std::size_t bytes() const { return bins_.size() * sizeof(Bin); }
 
   private:
@@ -39,13 +40,14 @@ class AliasTable {
     std::vector<Bin> bins_;
 };
 
-inline AliasTable::Sample AliasTable::sample(float u) const {
-    float const scaled = u * static_cast<float>(bins_.size());
+inline AliasTable::Sample AliasTable::sample(double u) const {
+    double const scaled = u * static_cast<double>(bins_.size());
     auto const i = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
-    float const up = std::min(scaled - static_cast<float>(i), kOneMinusEpsilon);
+    double const up = scaled - static_cast<double>(i);
     Bin const& b = bins_[i];
-    if (up < b.q) return {i, b.p, std::min(up / b.q, kOneMinusEpsilon)};
-    return {b.alias, bins_[b.alias].p, std::min((up - b.q) / (1.0f - b.q), kOneMinusEpsilon)};
+    auto const q = static_cast<double>(b.q);
+    if (up < q) return {i, b.p, std::min(static_cast<float>(up / q), kOneMinusEpsilon)};
+    return {b.alias, bins_[b.alias].p, std::min(static_cast<float>((up - q) / (1.0 - q)), kOneMinusEpsilon)};
 }
 
 /// Piecewise-constant density over [0,1], sampled by inversion (keeps stratification).

@@ -34,6 +34,9 @@ constexpr std::uint64_t hash_keys(std::uint64_t a, std::uint64_t b, Rest... rest
 /// 32 random bits to [0, 1): the top 24 bits, so that 1 is never reached.
 constexpr float to_unit_float(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
+/// 53 random bits to [0, 1).
+constexpr double to_unit_double(std::uint64_t x) { return static_cast<double>(x >> 11) * 0x1p-53; }
+
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);

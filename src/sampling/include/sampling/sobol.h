@@ -60,11 +60,14 @@ constexpr std::uint32_t sobol_second_reversed(std::uint32_t i) {
 }
 
 /// Point `index` of the scrambled and shuffled sequence named by `key`.
-inline float sobol_1d(std::uint32_t index, std::uint64_t key) {
+inline std::uint32_t sobol_1d_bits(std::uint32_t index, std::uint64_t key) {
     auto const shuffle = static_cast<std::uint32_t>(key);
     auto const scramble = static_cast<std::uint32_t>(key >> 32);
     std::uint32_t const i = owen_scramble(index, shuffle);
-    return to_unit_float(reverse_bits(owen_scramble_reversed(i, scramble)));
+    return reverse_bits(owen_scramble_reversed(i, scramble));
+}
+inline float sobol_1d(std::uint32_t index, std::uint64_t key) {
+    return to_unit_float(sobol_1d_bits(index, key));
 }
 inline Vec2 sobol_2d(std::uint32_t index, std::uint64_t key) {
     auto const shuffle = static_cast<std::uint32_t>(key);

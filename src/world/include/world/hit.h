@@ -13,6 +13,13 @@ namespace nephroid {
 
 inline constexpr std::uint32_t kNoInstance = 0xFFFFFFFFu;
 
+/// What a surface does to light that goes straight on.
+enum class Passage : std::uint8_t {
+    Solid,
+    Partly,    // a mix with an interface in it: chance decides
+    Interface  // light passes as if nothing were there
+};
+
 /// A surface point in world space and what it belongs to.
 struct SurfaceHit {
     SurfacePoint s;
@@ -23,7 +30,7 @@ struct SurfaceHit {
     std::uint32_t instance = kNoInstance;  // which appearance of its group
     MaterialId material;
     bool emits = false;
-    bool interface = false;  // light passes as if nothing were there
+    Passage passage = Passage::Solid;
 
     /// A ray that leaves in direction w (math/ray.h).
     [[nodiscard]] Ray spawn(Vec3 w) const { return {offset_ray_origin(s.p, s.p_error, s.ng, w), w}; }

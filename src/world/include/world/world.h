@@ -26,7 +26,8 @@ struct WorldCounts {
     std::uint64_t objects = 0, triangles = 0, analytic = 0, instances = 0, lights = 0, infinite_lights = 0;
 };
 
-class RayCaster;   // Embree
+class RayCaster;  // Embree
+struct RawHit;
 class LightTable;  // all lights, and how one is chosen
 struct WorldParts;
 struct Emitter;
@@ -49,8 +50,9 @@ class World {
     // --- rays -----------------------------------------------------------------------------------------------------------
     /// Nearest hit with 0 < t <= t_max. The direction need not be a unit vector.
     bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const;
-    /// Is anything between the two surface points (or lights)? Both ends are moved off their surfaces by their error bounds.
-    bool occluded(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;
+    /// The share of light that gets from one surface point to the other (or to the light at infinity): 0 where something solid
+    /// is between them, less than 1 behind mixes with interfaces. Both ends are moved off their surfaces by their error bounds.
+    float transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;
 
     // --- emission ---------------------------------------------------------------------------------------------------------
     /// Radiance that the surface itself emits towards w.
@@ -63,7 +65,7 @@ class World {
 
     /// One light chosen by power (u_choose), one direction to it from p (u). The pdf is by solid angle and contains the
     /// probability of the choice; for delta lights it is that probability alone. Nothing when the light cannot reach p.
-    std::optional<LightSample> sample_light(Vec3 p, float u_choose, Vec2 u, Wavelengths const& lambda) const;
+    std::optional<LightSample> sample_light(Vec3 p, double u_choose, Vec2 u, Wavelengths const& lambda) const;
     /// The density with which sample_light(p) would have found the emitting point `hit` seen along w.
     float light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const;
     /// … or the infinite light along w.
@@ -74,6 +76,8 @@ class World {
     Spectrum emitted(Emitter const& e, Vec3 n, Vec2 uv, Vec3 w, Wavelengths const& lambda) const;
     friend TraceSums trace_only(World const& world, std::span<RecordedRay const> rays);
     World();
+    void complete(RawHit const& raw, SurfaceHit& hit) const;
+    float passing_share(Ray ray, float t_max, RayStats& stats) const;
     std::optional<LightSample> sample_light_without_surface(LightId id, Vec3 p, Vec2 u,
                                                             Wavelengths const& lambda) const;
 
