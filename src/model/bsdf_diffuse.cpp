@@ -12,16 +12,19 @@ float pdf(DiffuseBsdf const&, Vec3 wo, Vec3 wi, HemisphereSampling how) {
 
 std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, Mode mode,
                                  HemisphereSampling how) {
-    if (wo.z == 0.0f) return std::nullopt;
+    // One object, built where the caller wants it: a copy right after it was written costs more than the rest.
+    std::optional<BsdfSample> result;
+    if (wo.z == 0.0f) return result;
     Vec3 wi =
         how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u) : square_to_uniform_hemisphere(u);
     if (wo.z < 0.0f) wi.z = -wi.z;
-    BsdfSample s;
+    float const density = pdf(b, wo, wi, how);
+    if (!(density > 0.0f)) return result;
+    BsdfSample& s = result.emplace();
     s.wi = wi;
-    s.pdf = pdf(b, wo, wi, how);
-    if (!(s.pdf > 0.0f)) return std::nullopt;
+    s.pdf = density;
     s.f = evaluate(b, wo, wi, mode);
-    return s;
+    return result;
 }
 
 }  // namespace nephroid

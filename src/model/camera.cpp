@@ -70,7 +70,7 @@ CameraRay PreparedCamera::ray(Vec2 film, Vec2 lens) const {
     match(
         camera_.kind,
         [&](PerspectiveCamera const& p) {
-            d = normalize(Vec3{q.x, q.y, 1});
+            d = Vec3{q.x, q.y, 1};
             apply_lens(p.lens_radius, p.focal_distance, lens, o, d);
         },
         [&](OrthographicCamera const& p) {

@@ -2,6 +2,7 @@
 
 #include "sampling/warp.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -31,12 +32,12 @@ float sinc(float x) {
 }
 
 /// One axis of a filter at offset x.
-struct Axis {
+struct Profile {
     Filter const& filter;
     int axis;
     float floor = 0;  // a gaussian's value at its radius
 
-    Axis(Filter const& f, int a) : filter(f), axis(a) {
+    Profile(Filter const& f, int a) : filter(f), axis(a) {
         if (auto const* g = std::get_if<GaussianFilter>(&f)) floor = gaussian(g->radius[a], g->sigma);
     }
 
@@ -62,33 +63,93 @@ Vec2 radius(Filter const& filter) {
 }
 
 float evaluate(Filter const& filter, Vec2 offset) {
-    return Axis{filter, 0}(offset.x) * Axis{filter, 1}(offset.y);
+    return Profile{filter, 0}(offset.x) * Profile{filter, 1}(offset.y);
+}
+
+FilterSampler::Axis FilterSampler::tabulate(Filter const& filter, int axis, double& integral) {
+    Axis a;
+    a.radius = nephroid::radius(filter)[axis];
+    // 64 cells a pixel, so that f is all but linear across one.
+    auto const n = static_cast<std::size_t>(std::ceil(128.0f * a.radius));
+    a.cell_size = 2.0f * a.radius / static_cast<float>(n);
+    Profile const f{filter, axis};
+    // Inside the radius by a hair: a box's value at its edge is no one's business.
+    auto const at = [&](double x) {
+        double const r = static_cast<double>(a.radius) * (1 - 1e-6);
+        return static_cast<double>(f(static_cast<float>(std::clamp(x, -r, r))));
+    };
+    std::vector<double> edge(n + 1);
+    for (std::size_t i = 0; i <= n; ++i)
+        edge[i] =
+            at(static_cast<double>(a.cell_size) * static_cast<double>(i) - static_cast<double>(a.radius));
+    // The mass of a cell: the integral of |f|, f linear, which may cross 0 within it. Never 0 where f is not.
+    auto const mass = [&](std::size_t i) {
+        double const p = edge[i];
+        double const q = edge[i + 1];
+        double const size = static_cast<double>(a.cell_size);
+        return p * q >= 0 ? size * std::abs(p + q) / 2 : size * (p * p + q * q) / (2 * std::abs(p - q));
+    };
+    double total = 0;
+    double net = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        total += mass(i);
+        net += static_cast<double>(a.cell_size) * (edge[i] + edge[i + 1]) / 2;
+    }
+    integral *= net;
+    double sum = 0;
+    a.cells.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        double const density = mass(i) / (total * static_cast<double>(a.cell_size));
+        Axis::Cell& c = a.cells[i];
+        c.cdf = static_cast<float>(sum / total);
+        c.density = static_cast<float>(density);
+        sum += mass(i);
+        if (!(density > 0)) continue;
+        c.weight = static_cast<float>(edge[i] / (density * net));
+        c.slope = static_cast<float>((edge[i + 1] - edge[i]) / (density * net));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        float const next = i + 1 < n ? a.cells[i + 1].cdf : 1.0f;
+        if (next > a.cells[i].cdf) a.cells[i].inverse_width = 1.0f / (next - a.cells[i].cdf);
+    }
+    // Eight entries a cell: the search then mostly ends where it starts.
+    a.guide.resize(8 * n);
+    for (std::size_t k = 0, i = 0; k < a.guide.size(); ++k) {
+        while (i + 1 < n && a.cells[i + 1].cdf <= static_cast<float>(k) / static_cast<float>(a.guide.size()))
+            ++i;
+        a.guide[k] = static_cast<std::uint32_t>(i);
+    }
+    return a;
+}
+
+float FilterSampler::Axis::sample(float u, float& w) const {
+    std::size_t const n = cells.size();
+    std::size_t const m = guide.size();
+    std::size_t i = guide[std::min(static_cast<std::size_t>(u * static_cast<float>(m)), m - 1)];
+    while (i > 0 && cells[i].cdf > u) --i;  // u * m may have been rounded up
+    while (i + 1 < n && cells[i + 1].cdf <= u) ++i;
+    while (i > 0 && cells[i].inverse_width == 0.0f) --i;  // never a cell without mass
+    Cell const& c = cells[i];
+    float const t = std::min((u - c.cdf) * c.inverse_width, 1.0f);
+    w *= c.weight + t * c.slope;
+    return std::min(cell_size * (static_cast<float>(i) + t) - radius, radius);
+}
+
+float FilterSampler::Axis::pdf(float offset) const {
+    float const i = std::floor((offset + radius) / cell_size);
+    return i >= 0.0f && i < static_cast<float>(cells.size()) ? cells[static_cast<std::size_t>(i)].density
+                                                             : 0.0f;
 }
 
 FilterSampler::FilterSampler(Filter const& filter) : filter_(filter), radius_(radius(filter)) {
-    auto const tabulate = [&](int axis) {
-        // 64 cells a pixel, each with the mean of |f| over 8 points: never 0 where the filter is not.
-        auto const cells = static_cast<std::size_t>(std::ceil(128.0f * radius_[axis]));
-        std::vector<float> f(cells);
-        double sum = 0;
-        Axis const value{filter_, axis};
-        for (std::size_t i = 0; i < cells; ++i)
-            for (int k = 0; k < 8; ++k) {
-                float const t = (static_cast<float>(i) + (static_cast<float>(k) + 0.5f) / 8.0f) /
-                                static_cast<float>(cells);
-                float const v = value(radius_[axis] * (2.0f * t - 1.0f));
-                f[i] += std::abs(v) / 8.0f;
-                sum += static_cast<double>(v);
-            }
-        integral_ *= static_cast<float>(sum / (8.0 * static_cast<double>(cells))) * 2.0f * radius_[axis];
-        return Distribution1D(f);
-    };
     match(
         filter_, [&](BoxFilter const&) { integral_ = 4.0f * radius_.x * radius_.y; },
         [&](TriangleFilter const&) { integral_ = sqr(radius_.x) * sqr(radius_.y); },
         [&](auto const&) {
-            x_ = tabulate(0);
-            y_ = tabulate(1);
+            double integral = 1;
+            x_ = tabulate(filter_, 0, integral);
+            y_ = tabulate(filter_, 1, integral);
+            integral_ = static_cast<float>(integral);
         });
 }
 
@@ -102,12 +163,10 @@ FilterSample FilterSampler::sample(Vec2 u) const {
             return FilterSample{{sample_tent(u.x, radius_.x), sample_tent(u.y, radius_.y)}, 1.0f};
         },
         [&](auto const&) {
-            float px = 0;
-            float py = 0;
-            Vec2 const t{x_.sample(u.x, &px), y_.sample(u.y, &py)};
-            Vec2 const offset{radius_.x * (2.0f * t.x - 1.0f), radius_.y * (2.0f * t.y - 1.0f)};
-            float const density = px * py / (4.0f * radius_.x * radius_.y);
-            return FilterSample{offset, evaluate(filter_, offset) / (density * integral_)};
+            FilterSample s;
+            s.offset.x = x_.sample(u.x, s.weight);
+            s.offset.y = y_.sample(u.y, s.weight);
+            return s;
         });
 }
 
@@ -119,10 +178,7 @@ float FilterSampler::pdf(Vec2 offset) const {
                                                                                       : 0.0f;
         },
         [&](TriangleFilter const&) { return tent_pdf(offset.x, radius_.x) * tent_pdf(offset.y, radius_.y); },
-        [&](auto const&) {
-            Vec2 const t{(offset.x / radius_.x + 1.0f) * 0.5f, (offset.y / radius_.y + 1.0f) * 0.5f};
-            return x_.pdf(t.x) * y_.pdf(t.y) / (4.0f * radius_.x * radius_.y);
-        });
+        [&](auto const&) { return x_.pdf(offset.x) * y_.pdf(offset.y); });
 }
 
 }  // namespace nephroid

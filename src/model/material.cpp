@@ -44,31 +44,36 @@ Spectrum index_lanes(RuntimeSpectrum const& eta, Wavelengths const& lambda) {
 
 }  // namespace
 
-std::optional<Bsdf> make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at,
-                              Wavelengths const& lambda) {
+bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
+               Bsdf& bsdf) {
     return match(
         assets.scene()[id].kind,
-        [&](DiffuseMaterial const& m) -> std::optional<Bsdf> {
-            return DiffuseBsdf{clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f)};
+        [&](DiffuseMaterial const& m) {
+            bsdf.emplace<DiffuseBsdf>(
+                clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f));
+            return true;
         },
-        [&](DielectricMaterial const&) -> std::optional<Bsdf> {
+        [&](DielectricMaterial const&) {
             RuntimeSpectrum const& eta = assets.data(id).eta;
-            return DielectricBsdf{index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant()};
+            bsdf.emplace<DielectricBsdf>(index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant());
+            return true;
         },
-        [&](ThinDielectricMaterial const&) -> std::optional<Bsdf> {
-            return ThinDielectricBsdf{index_lanes(assets.data(id).eta, lambda)};
+        [&](ThinDielectricMaterial const&) {
+            bsdf.emplace<ThinDielectricBsdf>(index_lanes(assets.data(id).eta, lambda));
+            return true;
         },
-        [&](ConductorMaterial const& m) -> std::optional<Bsdf> {
+        [&](ConductorMaterial const& m) {
             if (m.reflectance.valid()) {
                 // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
                 Spectrum const r = clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 0.9999f);
-                return ConductorBsdf{Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))};
+                bsdf.emplace<ConductorBsdf>(Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r)));
+            } else {
+                bsdf.emplace<ConductorBsdf>(evaluate_spectrum(assets, m.eta, at, lambda),
+                                            evaluate_spectrum(assets, m.k, at, lambda));
             }
-            return ConductorBsdf{evaluate_spectrum(assets, m.eta, at, lambda),
-                                 evaluate_spectrum(assets, m.k, at, lambda)};
+            return true;
         },
-        [](InterfaceMaterial const&) -> std::optional<Bsdf> { return std::nullopt; },
-        [](MixMaterial const&) -> std::optional<Bsdf> { return std::nullopt; });
+        [](InterfaceMaterial const&) { return false; }, [](MixMaterial const&) { return false; });
 }
 
 }  // namespace nephroid

@@ -27,13 +27,12 @@ Bounds3 bounds(TriangleMesh const& mesh) {
     return b;
 }
 
-SurfacePoint triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec2 b, bool flip,
-                              bool tangents) {
+void triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec2 b, bool flip, bool tangents,
+                      SurfacePoint& r) {
     Corners const c = corners(m, triangle);
     float const b1 = b.x;
     float const b2 = b.y;
     float const b0 = 1.0f - b1 - b2;
-    SurfacePoint r;
     r.p = b0 * c.p0 + b1 * c.p1 + b2 * c.p2;
     r.p_error = gamma_bound(7) * (abs(b0 * c.p0) + abs(b1 * c.p1) + abs(b2 * c.p2));
     Vec3 const e1 = c.p1 - c.p0;
@@ -64,8 +63,9 @@ SurfacePoint triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec
         } else {
             r.dpdu = e1, r.dpdv = e2;
         }
+    } else {
+        r.dpdu = r.dpdv = Vec3{0};
     }
-    return r;
 }
 
 float triangle_area(TriangleMesh const& m, std::uint32_t triangle) {

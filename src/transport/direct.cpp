@@ -8,8 +8,8 @@ Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, Aov
     Spectrum radiance;
     Walk walk = Walk::from_camera(ray, c.lambda);
     bool scattered = false;
+    Vertex v;
     for (;;) {
-        Vertex v;
         if (!advance(c, walk, EmissionWeight::Mis, v, radiance) || scattered) break;
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);

@@ -9,8 +9,8 @@ Spectrum radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSa
                                                       : EmissionWeight::SpecularOnly;
     Spectrum radiance;
     Walk walk = Walk::from_camera(ray, c.lambda);
+    Vertex v;
     for (;;) {
-        Vertex v;
         // The ray finds a surface, and what that surface (or the environment) emits.
         if (!advance(c, walk, weight, v, radiance)) break;
         bool const scatters = prepare(c, walk, v);

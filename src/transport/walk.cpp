@@ -80,9 +80,7 @@ bool prepare(PathContext& c, Walk const& walk, Vertex& v) {
     Assets const& assets = c.world.assets();
     TexturePoint at;
     if (assets.data(v.material).textured) at = texture_point(c, walk, v.hit);
-    auto const bsdf = make_bsdf(assets, v.material, at, c.lambda);
-    if (!bsdf) return false;
-    v.bsdf = *bsdf;
+    if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     v.frame = frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
     return true;

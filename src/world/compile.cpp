@@ -118,6 +118,24 @@ void check_emission(Scene const& scene, SourceLocation where, RuntimeSpectrum co
 /// How often a light is chosen. Power is a product with areas, and may leave the range of floats where emission does not.
 float weight_of(float power) { return power > 0.0f ? std::fmin(power, 1e30f) : 0.0f; }
 
+/// Folds what sampling a triangle needs, so that a sample does not have to gather it from the mesh. Nothing is done where the
+/// emission is a picture, or where vertex normals turn the emitting side within the triangle.
+void flatten_triangle(ObjectRecord const& record, InstanceRecord const* where, LightEntry& e) {
+    if (record.object->light->image.valid()) return;
+    // The corners, by the numbers that lead there (sampling/warp.h, square_to_triangle).
+    ShapeSample const a = sample_part(record, where, e.part, {0, 0});
+    ShapeSample const b = sample_part(record, where, e.part, {1, 0});
+    ShapeSample const c = sample_part(record, where, e.part, {0, 1});
+    if (a.n != b.n || a.n != c.n || !(a.pdf_area > 0.0f) || !std::isfinite(a.pdf_area)) return;
+    e.area_pdf = a.pdf_area;
+    e.corner = a.p;
+    e.edge1 = b.p - a.p;
+    e.edge2 = c.p - a.p;
+    e.normal = a.n;
+    e.p_error = max(a.p_error, max(b.p_error, c.p_error)) +
+                gamma_bound(5) * (abs(e.corner) + abs(e.edge1) + abs(e.edge2));
+}
+
 struct Builder {
     Scene& scene;
     Assets& assets;
@@ -234,8 +252,10 @@ struct Builder {
             std::uint64_t flat = 0;
             for (std::uint32_t part = 0; part < part_count(record); ++part) {
                 float const area = part_area(record, where, part);
-                bool const uniform = std::holds_alternative<TriangleMesh>(record.object->shape);
-                lights.entries.push_back({r, part, instance, uniform ? 1.0f / area : 0.0f});
+                LightEntry entry{.record = r, .part = part, .instance = instance};
+                if (std::holds_alternative<TriangleMesh>(record.object->shape))
+                    flatten_triangle(record, where, entry);
+                lights.entries.push_back(entry);
                 bool const usable = area > 0.0f && std::isfinite(area);
                 if (!usable) ++flat;
                 weights.push_back(usable ? weight_of(area * level) : 0.0f);
@@ -261,7 +281,7 @@ struct Builder {
             check_emission(scene, light.where, lights.data.back().emission);
             if (is_infinite(light)) lights.infinite.push_back(LightId{i});
             lights.entry_of_light.push_back(static_cast<std::uint32_t>(lights.entries.size()));
-            lights.entries.push_back({kNoInstance, i, kNoInstance, 0});
+            lights.entries.push_back({.record = kNoInstance, .part = i});
             weights.push_back(weight_of(power(light, lights.data.back(), assets, sphere)));
         }
         lights.choice = AliasTable(weights);

@@ -205,15 +205,6 @@ void RayCaster::finish(std::vector<InstanceRecord> const& instances,
     impl_->check("building the acceleration structure");
 }
 
-bool RayCaster::acceptable(Ray const& ray, float t_max) {
-    // Embree 3.13 of Debian asserts |origin| < 1.844e18 and finite directions; a zero direction goes nowhere.
-    // Comparisons with NaN are false, so that one product of bounds does for all.
-    auto const tame = [](float x) { return std::abs(x) < 1e18f; };
-    float const length2 = ray.d.x * ray.d.x + ray.d.y * ray.d.y + ray.d.z * ray.d.z;
-    return bool(tame(ray.o.x) & tame(ray.o.y) & tame(ray.o.z) & (length2 > 0.0f) & (length2 < 1e36f) &
-                (t_max >= 0.0f));
-}
-
 namespace {
 void fill(RTCRay& r, Ray const& ray, float t_max, std::uint32_t mask) {
     r.org_x = ray.o.x, r.org_y = ray.o.y, r.org_z = ray.o.z;

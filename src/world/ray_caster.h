@@ -5,6 +5,7 @@
 #include "math/bounds.h"
 #include "records.h"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -50,5 +51,14 @@ class RayCaster {
     std::unique_ptr<Impl> impl_;
     std::uint32_t first_instance_ = 0;  // geometry id of instance 0
 };
+
+inline bool RayCaster::acceptable(Ray const& ray, float t_max) {
+    // Embree 3.13 of Debian asserts |origin| < 1.844e18 and finite directions; a zero direction goes nowhere.
+    // Comparisons with NaN are false, so that one product of bounds does for all.
+    auto const tame = [](float x) { return std::abs(x) < 1e18f; };
+    float const length2 = ray.d.x * ray.d.x + ray.d.y * ray.d.y + ray.d.z * ray.d.z;
+    return bool(tame(ray.o.x) & tame(ray.o.y) & tame(ray.o.z) & (length2 > 0.0f) & (length2 < 1e36f) &
+                (t_max >= 0.0f));
+}
 
 }  // namespace nephroid

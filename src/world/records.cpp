@@ -29,21 +29,20 @@ bool flips(ObjectRecord const& r) {
 
 }  // namespace
 
-SurfacePoint surface_at(ObjectRecord const& r, InstanceRecord const* instance, ShapeHit const& hit,
-                        Vec3 local, bool tangents) {
-    SurfacePoint s = match(
+void surface_at(ObjectRecord const& r, InstanceRecord const* instance, ShapeHit const& hit, Vec3 local,
+                bool tangents, SurfacePoint& s) {
+    match(
         r.object->shape,
         [&](TriangleMesh const& m) {
-            return triangle_surface(m, hit.part, {hit.u, hit.v}, r.flip, tangents);
+            triangle_surface(m, hit.part, {hit.u, hit.v}, r.flip, tangents, s);
         },
-        [](LoopSubdivision const&) { return SurfacePoint{}; },  // became a TriangleMesh
+        [](LoopSubdivision const&) {},  // became a TriangleMesh
         [&](auto const& shape) {
-            SurfacePoint p = surface(shape, hit, local);
-            turn(p, flips(r));
-            return r.place ? transformed(r.place->shape_to_group, p) : p;
+            s = surface(shape, hit, local);
+            turn(s, flips(r));
+            if (r.place) s = transformed(r.place->shape_to_group, s);
         });
     if (instance) s = transformed(instance->to_world, s);
-    return s;
 }
 
 ShapeSample sample_part(ObjectRecord const& r, InstanceRecord const* instance, std::uint32_t part, Vec2 u) {

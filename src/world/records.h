@@ -41,8 +41,9 @@ struct InstanceRecord {
 };
 
 /// Geometry of a hit, in world space. `local` is the point in the space of an analytic shape, off by rounding.
-SurfacePoint surface_at(ObjectRecord const& record, InstanceRecord const* instance, ShapeHit const& hit,
-                        Vec3 local, bool tangents);
+/// Fills `s` in place.
+void surface_at(ObjectRecord const& record, InstanceRecord const* instance, ShapeHit const& hit, Vec3 local,
+                bool tangents, SurfacePoint& s);
 /// Uniform by area over one part, in world space.
 ShapeSample sample_part(ObjectRecord const& record, InstanceRecord const* instance, std::uint32_t part,
                         Vec2 u);

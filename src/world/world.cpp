@@ -12,7 +12,7 @@ namespace nephroid {
 
 std::size_t LightTable::bytes() const {
     std::size_t n = emitters.size() * sizeof(Emitter) + data.size() * sizeof(LightData) +
-                    entries.size() * sizeof(Entry) + entry_of_light.size() * sizeof(std::uint32_t) +
+                    entries.size() * sizeof(LightEntry) + entry_of_light.size() * sizeof(std::uint32_t) +
                     choice.bytes();
     for (LightData const& d : data)
         if (d.table) n += d.table->distribution.bytes();
@@ -75,8 +75,8 @@ void World::complete(RawHit const& raw, SurfaceHit& hit) const {
     hit.material = record.material;
     hit.emits = record.emits();
     hit.passage = record.passage;
-    hit.s = surface_at(record, instance, {static_cast<double>(raw.t), raw.u, raw.v, raw.primitive}, raw.local,
-                       record.textured);
+    surface_at(record, instance, {static_cast<double>(raw.t), raw.u, raw.v, raw.primitive}, raw.local,
+               record.textured, hit.s);
 }
 
 float World::transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
@@ -153,37 +153,52 @@ std::optional<LightSample> World::sample_light(Vec3 p, double u_choose, Vec2 u,
                                                Wavelengths const& lambda) const {
     if (lights_->choice.empty()) return std::nullopt;
     auto const chosen = lights_->choice.sample(u_choose);
-    LightTable::Entry const& entry = lights_->entries[chosen.index];
-    if (entry.record == kNoInstance) {
-        auto s = sample_light_without_surface(LightId{entry.part}, p, u, lambda);
-        if (s) s->pdf *= chosen.pmf;
-        return s;
-    }
-    // A point uniform by area, its density turned into solid angle: p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
-    ObjectRecord const& record = parts_->records[entry.record];
-    InstanceRecord const* instance =
-        entry.instance == kNoInstance ? nullptr : &parts_->instances[entry.instance];
-    ShapeSample const point = sample_part(record, instance, entry.part, u);
-    float const area_pdf = entry.area_pdf > 0.0f ? entry.area_pdf : point.pdf_area;
-    Vec3 const to_light = point.p - p;
-    float const r2 = length_squared(to_light);
-    if (!(r2 > 0.0f)) return std::nullopt;
-    LightSample s;
-    s.wi = to_light / std::sqrt(r2);
-    float const cos_light = abs_dot(point.n, s.wi);
-    if (!(cos_light > 0.0f) || !(area_pdf > 0.0f)) return std::nullopt;
-    s.pdf = chosen.pmf * area_pdf * r2 / cos_light;
-    if (!std::isfinite(s.pdf)) return std::nullopt;
-    s.radiance = emitted(lights_->emitters[record.emitter], point.n, point.uv, -s.wi, lambda);
-    s.p = point.p;
-    s.p_error = point.p_error;
-    s.n = point.n;
+    LightEntry const& entry = lights_->entries[chosen.index];
+    return entry.record == kNoInstance
+               ? sample_light_without_surface(LightId{entry.part}, chosen.pmf, p, u, lambda)
+               : sample_area_light(entry, chosen.pmf, p, u, lambda);
+}
+
+std::optional<LightSample> World::sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
+                                                               Wavelengths const& lambda) const {
+    auto s = nephroid::sample_light((*scene_)[id], lights_->data[id.value], *assets_, p, u, lambda);
+    if (s) s->pdf *= pmf;
     return s;
 }
 
-std::optional<LightSample> World::sample_light_without_surface(LightId id, Vec3 p, Vec2 u,
-                                                               Wavelengths const& lambda) const {
-    return nephroid::sample_light((*scene_)[id], lights_->data[id.value], *assets_, p, u, lambda);
+std::optional<LightSample> World::sample_area_light(LightEntry const& entry, float pmf, Vec3 p, Vec2 u,
+                                                    Wavelengths const& lambda) const {
+    std::optional<LightSample> result;
+    Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
+    // A point uniform by area …
+    ShapeSample point;
+    if (entry.area_pdf > 0.0f) {
+        Vec2 const b = square_to_triangle(u);
+        point.p = entry.corner + b.x * entry.edge1 + b.y * entry.edge2;
+        point.p_error = entry.p_error;
+        point.n = entry.normal;
+        point.pdf_area = entry.area_pdf;
+    } else {
+        point = sample_part(parts_->records[entry.record],
+                            entry.instance == kNoInstance ? nullptr : &parts_->instances[entry.instance],
+                            entry.part, u);
+    }
+    // … its density turned into solid angle: p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
+    Vec3 const to_light = point.p - p;
+    float const r2 = length_squared(to_light);
+    if (!(r2 > 0.0f)) return result;
+    Vec3 const wi = to_light * (1.0f / std::sqrt(r2));
+    float const cos_light = abs_dot(point.n, wi);
+    float const pdf = pmf * point.pdf_area * r2 / cos_light;
+    if (!(cos_light > 0.0f) || !(pdf > 0.0f) || !std::isfinite(pdf)) return result;
+    LightSample& s = result.emplace();
+    s.wi = wi;
+    s.pdf = pdf;
+    s.radiance = emitted(emitter, point.n, point.uv, -wi, lambda);
+    s.p = point.p;
+    s.p_error = point.p_error;
+    s.n = point.n;
+    return result;
 }
 
 float World::light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const {

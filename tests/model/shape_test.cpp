@@ -127,6 +127,12 @@ BilinearMesh twisted_patch() {
     return m;
 }
 
+SurfacePoint surface_of(TriangleMesh const& m, std::uint32_t triangle, Vec2 b, bool flip, bool tangents) {
+    SurfacePoint s;
+    triangle_surface(m, triangle, b, flip, tangents, s);
+    return s;
+}
+
 }  // namespace
 
 TEST_CASE("areas by hand") {
@@ -442,23 +448,23 @@ TEST_CASE("triangles: points, normals, flips, tangents, samples") {
     m.triangles = {{0, 1, 2}};
     CHECK(triangle_area(m, 0) == doctest::Approx(0.5 * std::sqrt(36 + 4)));
     Vec3 const n = normalize(cross(m.p[1], m.p[2]));
-    SurfacePoint s = triangle_surface(m, 0, {0.25f, 0.5f}, false, true);
+    SurfacePoint s = surface_of(m, 0, {0.25f, 0.5f}, false, true);
     CHECK(length(s.p - (0.25f * m.p[1] + 0.5f * m.p[2])) < 1e-6f);
     CHECK(length(s.ng - n) < 1e-6f);
-    CHECK(length(triangle_surface(m, 0, {0.25f, 0.5f}, true, false).ng + n) < 1e-6f);
+    CHECK(length(surface_of(m, 0, {0.25f, 0.5f}, true, false).ng + n) < 1e-6f);
     // Without uv the corners are (0,0), (1,0), (1,1), as pbrt has them.
     CHECK(s.uv.x == doctest::Approx(0.75));
     CHECK(s.uv.y == doctest::Approx(0.5));
     CHECK(length(s.dpdu - (m.p[1] - m.p[0])) < 1e-6f);
     CHECK(length(s.dpdv - (m.p[2] - m.p[1])) < 1e-6f);
     m.uv = {{0, 0}, {0, 2}, {4, 0}};
-    s = triangle_surface(m, 0, {0.25f, 0.5f}, false, true);
+    s = surface_of(m, 0, {0.25f, 0.5f}, false, true);
     CHECK(length(s.dpdv - m.p[1] / 2.0f) < 1e-6f);
     CHECK(length(s.dpdu - m.p[2] / 4.0f) < 1e-6f);
     // Shading normals decide the side.
     m.n = std::vector<Vec3>(3, -n);
     m.n[1] = normalize(-n + Vec3{0.2f, 0, 0});
-    s = triangle_surface(m, 0, {0.5f, 0.25f}, false, false);
+    s = surface_of(m, 0, {0.5f, 0.25f}, false, false);
     CHECK(length(s.ng + n) < 1e-6f);
     CHECK(length(s.ns - normalize(0.5f * m.n[1] - 0.5f * n)) < 1e-6f);
     m.n.clear();
@@ -593,7 +599,7 @@ TEST_CASE("Loop subdivision of an octahedron and an icosahedron: closed, outward
                 Vec3i const v = m.triangles[t];
                 for (int k = 0; k < 3; ++k) ++edges[{v[k], v[(k + 1) % 3]}];
                 total += static_cast<double>(triangle_area(m, t));
-                SurfacePoint const s = triangle_surface(m, t, {1 / 3.0f, 1 / 3.0f}, false, false);
+                SurfacePoint const s = surface_of(m, t, {1 / 3.0f, 1 / 3.0f}, false, false);
                 REQUIRE(nephroid::dot(s.ng, s.p) > 0);
                 REQUIRE(nephroid::dot(s.ns, s.p) > 0.8f * length(s.p));
             }

@@ -71,15 +71,21 @@ TEST_CASE("to_unit_float never reaches 1") {
     CHECK(to_unit_float(0) == 0);
     CHECK(to_unit_float(0xffffffffu) == 1 - 0x1p-24f);
     CHECK(to_unit_float(0x80000000u) == 0.5f);
+    CHECK(to_unit_double(0) == 0);
+    CHECK(to_unit_double(~0ull) == 1 - 0x1p-53);
+    CHECK(to_unit_double(1ull << 63) == 0.5);
 }
 
 TEST_CASE("reverse_bits") {
-    CHECK(reverse_bits(1) == 0x80000000u);
+    CHECK(reverse_bits(1u) == 0x80000000u);
     CHECK(reverse_bits(0x12345678u) == 0x1e6a2c48u);
     Random r(2);
     for (int i = 0; i < 1000; ++i) {
         auto const x = static_cast<std::uint32_t>(r.bits());
         CHECK(reverse_bits(reverse_bits(x)) == x);
+        auto const y = static_cast<std::uint32_t>(r.bits());
+        CHECK(reverse_bits(std::uint64_t{y} << 32 | x) ==
+              (std::uint64_t{reverse_bits(x)} << 32 | reverse_bits(y)));
         for (int b = 0; b < 32; ++b) CHECK((reverse_bits(x) >> b & 1u) == (x >> (31 - b) & 1u));
     }
 }

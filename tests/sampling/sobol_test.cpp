@@ -18,7 +18,7 @@ bool is_net(int k, std::uint32_t first, std::uint64_t key) {
         std::uint32_t const ny = n / nx;
         std::vector<char> hit(n, 0);
         for (std::uint32_t i = 0; i < n; ++i) {
-            Vec2 const p = sobol_2d(first + i, key);
+            Vec2 const p = sobol_2d(reverse_bits(first + i), key);
             auto const x = static_cast<std::uint32_t>(p.x * static_cast<float>(nx));
             auto const y = static_cast<std::uint32_t>(p.y * static_cast<float>(ny));
             if (x >= nx || y >= ny || hit[y * nx + x]++) return false;
@@ -58,7 +58,8 @@ TEST_CASE("one-dimensional runs are stratified") {
             std::vector<char> hit(n, 0);
             bool good = true;
             for (std::uint32_t i = 0; i < n; ++i) {
-                auto const x = static_cast<std::uint32_t>(sobol_1d(first + i, key) * static_cast<float>(n));
+                auto const x = static_cast<std::uint32_t>(sobol_1d(reverse_bits(first + i), key) *
+                                                          static_cast<float>(n));
                 good = good && x < n && !hit[x]++;
             }
             CHECK(good);
@@ -90,7 +91,7 @@ TEST_CASE("each point alone is uniform over scrambles") {
     for (std::uint32_t const index : {0u, 1u, 77777u}) {
         std::vector<double> o(32 * 32);
         for (int k = 0; k < n; ++k) {
-            Vec2 const p = sobol_2d(index, hash_keys(static_cast<std::uint64_t>(k), 5));
+            Vec2 const p = sobol_2d(reverse_bits(index), hash_keys(static_cast<std::uint64_t>(k), 5));
             ++o[static_cast<std::size_t>(p.x * 32) * 32 + static_cast<std::size_t>(p.y * 32)];
         }
         std::vector<double> const e(o.size(), n / 1024.0);
@@ -109,8 +110,8 @@ TEST_CASE("scrambles of different keys are independent") {
             std::uint64_t const key = hash_keys(static_cast<std::uint64_t>(k));
             double a = 0, b = 0;
             for (std::uint32_t i = 0; i < 7; ++i) {
-                a += static_cast<double>(sobol_1d(i, key)) - 0.5;
-                b += static_cast<double>(sobol_1d(i, mix64(key + distance))) - 0.5;
+                a += static_cast<double>(sobol_1d(reverse_bits(i), key)) - 0.5;
+                b += static_cast<double>(sobol_1d(reverse_bits(i), mix64(key + distance))) - 0.5;
             }
             sxy += a * b, sxx += a * a, syy += b * b;
         }
@@ -120,8 +121,9 @@ TEST_CASE("scrambles of different keys are independent") {
     std::vector<double> o(16 * 16);
     int const m = 200'000;
     for (int k = 0; k < m; ++k) {
-        float const a = sobol_1d(3, mix64(static_cast<std::uint64_t>(k)));
-        float const b = sobol_1d(3, mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
+        float const a = sobol_1d(reverse_bits(3), mix64(static_cast<std::uint64_t>(k)));
+        float const b =
+            sobol_1d(reverse_bits(3), mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
         ++o[static_cast<std::size_t>(a * 16) * 16 + static_cast<std::size_t>(b * 16)];
     }
     CHECK(chi_square(o, std::vector<double>(256, m / 256.0)).p >= 0.001);

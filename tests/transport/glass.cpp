@@ -194,8 +194,9 @@ TEST_CASE("prisms: minimum deviation of the F, d and C lines") {
                 SurfaceHit hit;
                 if (!world.intersect(ray, kInfinity, RayKind::Bounce, stats, hit)) return 180;
                 Frame const frame = frame_from_z(hit.s.ns);
-                auto const bsdf = make_bsdf(world.assets(), hit.material, {}, lambda);
-                auto const s = sample(*bsdf, frame.to_local(-ray.d), kOneMinusEpsilon, {}, Mode::Radiance,
+                Bsdf bsdf;
+                REQUIRE(make_bsdf(world.assets(), hit.material, {}, lambda, bsdf));
+                auto const s = sample(bsdf, frame.to_local(-ray.d), kOneMinusEpsilon, {}, Mode::Radiance,
                                       HemisphereSampling::Cosine);
                 if (!s || !s->transmitted) return 180;
                 CHECK(s->keep_hero);

@@ -59,7 +59,7 @@ inline float abs_dot(Vec3 a, Vec3 b) { return std::abs(dot(a, b)); }
 inline float length_squared(Vec3 v) { return dot(v, v); }
 inline float length(Vec3 v) { return std::sqrt(dot(v, v)); }
 inline float distance_squared(Vec3 a, Vec3 b) { return length_squared(a - b); }
-inline Vec3 normalize(Vec3 v) { return v / length(v); }
+inline Vec3 normalize(Vec3 v) { return v * (1.0f / length(v)); }
 inline Vec3 abs(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 // Plain comparisons, not fmin and fmax: they compile to one instruction each. With a NaN the second argument is returned.
 inline float min(float a, float b) { return a < b ? a : b; }

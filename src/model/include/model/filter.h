@@ -1,9 +1,12 @@
 // Pixel reconstruction filters, sampled by importance: a camera sample touches one pixel (Ernst et al. 2006; PBRT 4th ed., 8.8).
 #pragma once
 
-#include "sampling/distribution.h"
+#include "math/vec.h"
 #include "scene/match.h"
 #include "scene/settings.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace nephroid {
 
@@ -29,9 +32,27 @@ class FilterSampler {
     [[nodiscard]] float integral() const { return integral_; }
 
   private:
+    /// |f| of one axis over [-r, r] in cells of constant density, with f itself linear across each cell.
+    struct Axis {
+        struct Cell {
+            float cdf = 0;            // at the cell's left edge
+            float inverse_width = 0;  // 1 / (cdf there - cdf here)
+            float weight = 0,
+                  slope = 0;  // f / density, divided by the axis's integral: at the left edge, and its change
+            float density = 0;  // per pixel
+        };
+        std::vector<Cell> cells;
+        std::vector<std::uint32_t> guide;  // guide[k]: where the search for u >= k / size starts
+        float radius = 0, cell_size = 0;
+
+        [[nodiscard]] float sample(float u, float& weight) const;
+        [[nodiscard]] float pdf(float offset) const;
+    };
+    static Axis tabulate(Filter const& filter, int axis, double& integral);
+
     Filter filter_;
     Vec2 radius_;
-    Distribution1D x_, y_;  // |f| tabulated over [-r, r]; unused by box and triangle
+    Axis x_, y_;  // unused by box and triangle
     float integral_ = 1;
 };
 

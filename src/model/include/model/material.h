@@ -4,8 +4,6 @@
 #include "model/bsdf.h"
 #include "model/texture.h"
 
-#include <optional>
-
 namespace nephroid {
 
 /// Follows mixes down to one material: `u` in [0,1) decides, and is stretched to be fresh for the next level, or for the caller.
@@ -13,8 +11,8 @@ MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& 
 /// The probability with which resolve_mix ends at an interface: the share of light that passes as if nothing were there.
 float interface_share(Assets const& assets, MaterialId id, TexturePoint const& at);
 
-/// Nothing for an interface: light goes on. `id` must not be a mix (see resolve_mix).
-std::optional<Bsdf> make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at,
-                              Wavelengths const& lambda);
+/// Fills `bsdf` in place. False for an interface: light goes on. `id` must not be a mix (see resolve_mix).
+bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
+               Bsdf& bsdf);
 
 }  // namespace nephroid

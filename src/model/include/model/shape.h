@@ -72,9 +72,9 @@ float sample_pdf(S const& shape, std::uint32_t part, Vec2) {
 // --- triangles: the intersector is Embree's ---------------------------------------------------------------------------
 Bounds3 bounds(TriangleMesh const& mesh);
 /// Geometry at barycentric coordinates (b1, b2) of the second and third vertex. `flip`: the normal's side is the other one
-/// (ReverseOrientation or a mirroring transform, not both). Tangents only on request.
-SurfacePoint triangle_surface(TriangleMesh const& mesh, std::uint32_t triangle, Vec2 b, bool flip,
-                              bool tangents);
+/// (ReverseOrientation or a mirroring transform, not both). Tangents only on request, else 0. Fills `r` in place.
+void triangle_surface(TriangleMesh const& mesh, std::uint32_t triangle, Vec2 b, bool flip, bool tangents,
+                      SurfacePoint& r);
 float triangle_area(TriangleMesh const& mesh, std::uint32_t triangle);
 ShapeSample sample_triangle(TriangleMesh const& mesh, std::uint32_t triangle, bool flip, Vec2 u);
 

@@ -28,7 +28,8 @@ class PathSampler {
     PathSampler(Sequence const& sequence, std::uint64_t stream, std::uint64_t path, std::uint64_t pass)
         : sequence_(&sequence),
           key_(hash_keys(sequence.seed ^ (stream << 56), path)),
-          index_(static_cast<std::uint32_t>(pass)) {
+          index_(static_cast<std::uint32_t>(pass)),
+          reversed_(reverse_bits(index_)) {
         // Beyond 2^32 passes the sequence starts anew under another scramble.
         if (pass >> 32) key_ = hash_keys(key_, pass >> 32);
         if (sequence.kind == SequenceKind::Independent) key_ = hash_keys(key_, pass);
@@ -41,7 +42,7 @@ class PathSampler {
         std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
         switch (sequence_->kind) {
             case SequenceKind::Sobol:
-                return sobol_1d(index_, key);
+                return sobol_1d(reversed_, key);
             case SequenceKind::Independent:
                 return to_unit_float(static_cast<std::uint32_t>(key));
             case SequenceKind::Stratified:
@@ -53,7 +54,7 @@ class PathSampler {
         std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
         switch (sequence_->kind) {
             case SequenceKind::Sobol:
-                return sobol_2d(index_, key);
+                return sobol_2d(reversed_, key);
             case SequenceKind::Independent:
                 return {to_unit_float(static_cast<std::uint32_t>(key)),
                         to_unit_float(static_cast<std::uint32_t>(key >> 32))};
@@ -69,7 +70,7 @@ class PathSampler {
         if (sequence_->kind == SequenceKind::Independent) return to_unit_double(key);
         std::uint64_t const low = mix64(key ^ (index_ + 0x9e3779b97f4a7c15ull)) >> 32;
         if (sequence_->kind == SequenceKind::Sobol)
-            return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(index_, key)) << 32 | low);
+            return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(reversed_, key)) << 32 | low);
         return stratified_1d_fine(key);
     }
 
@@ -81,6 +82,7 @@ class PathSampler {
     Sequence const* sequence_;
     std::uint64_t key_;
     std::uint32_t index_;
+    std::uint32_t reversed_;  // the bits of index_, as Sobol' points want them
     std::uint32_t dimension_ = 0;
 };
 

@@ -59,22 +59,27 @@ constexpr std::uint32_t sobol_second_reversed(std::uint32_t i) {
            detail::kSobolSecond[2][i >> 16 & 255u] ^ detail::kSobolSecond[3][i >> 24];
 }
 
-/// Point `index` of the scrambled and shuffled sequence named by `key`.
-inline std::uint32_t sobol_1d_bits(std::uint32_t index, std::uint64_t key) {
+/// Point `index` of the scrambled and shuffled sequence named by `key`; the index comes with its bits reversed, since a path
+/// draws many numbers at one index.
+inline std::uint32_t sobol_1d_bits(std::uint32_t reversed_index, std::uint64_t key) {
     auto const shuffle = static_cast<std::uint32_t>(key);
     auto const scramble = static_cast<std::uint32_t>(key >> 32);
-    std::uint32_t const i = owen_scramble(index, shuffle);
+    std::uint32_t const i = reverse_bits(owen_scramble_reversed(reversed_index, shuffle));
     return reverse_bits(owen_scramble_reversed(i, scramble));
 }
-inline float sobol_1d(std::uint32_t index, std::uint64_t key) {
-    return to_unit_float(sobol_1d_bits(index, key));
+inline float sobol_1d(std::uint32_t reversed_index, std::uint64_t key) {
+    return to_unit_float(sobol_1d_bits(reversed_index, key));
 }
-inline Vec2 sobol_2d(std::uint32_t index, std::uint64_t key) {
+inline Vec2 sobol_2d(std::uint32_t reversed_index, std::uint64_t key) {
     auto const shuffle = static_cast<std::uint32_t>(key);
     auto const scramble = static_cast<std::uint32_t>(key >> 32);
-    std::uint32_t const i = owen_scramble(index, shuffle);
-    return {to_unit_float(reverse_bits(owen_scramble_reversed(i, scramble))),
-            to_unit_float(reverse_bits(owen_scramble_reversed(sobol_second_reversed(i), mix32(scramble))))};
+    std::uint32_t const i = reverse_bits(owen_scramble_reversed(reversed_index, shuffle));
+    std::uint64_t const x = owen_scramble_reversed(i, scramble);
+    std::uint64_t const y = owen_scramble_reversed(sobol_second_reversed(i), mix32(scramble));
+    // Both turned round at once, which also swaps them.
+    std::uint64_t const both = reverse_bits(y << 32 | x);
+    return {to_unit_float(static_cast<std::uint32_t>(both >> 32)),
+            to_unit_float(static_cast<std::uint32_t>(both))};
 }
 
 }  // namespace nephroid

@@ -10,21 +10,21 @@
 namespace nephroid {
 
 // --- disk ---------------------------------------------------------------------------------------------------------
-/// Shirley & Chiu 1997, concentric map: low distortion, density 1/pi over the unit disk.
+/// Shirley & Chiu 1997, concentric map: low distortion, density 1/pi over the unit disk. The two kinds of wedges are one
+/// calculation with x and y swapped, without a branch, which half of all points would take; the angle stays within pi/4,
+/// where the Taylor series of degree 9 and 8 are exact to a float's rounding.
 inline Vec2 square_to_disk(Vec2 u) {
     float const a = 2.0f * u.x - 1.0f;
     float const b = 2.0f * u.y - 1.0f;
-    if (a == 0.0f && b == 0.0f) return {0, 0};
-    float r;
-    float phi;
-    if (std::abs(a) > std::abs(b)) {
-        r = a;
-        phi = kPiOver4 * (b / a);
-    } else {
-        r = b;
-        phi = kPiOver2 - kPiOver4 * (a / b);
-    }
-    return {r * std::cos(phi), r * std::sin(phi)};
+    bool const along_x = std::abs(a) > std::abs(b);
+    float const r = along_x ? a : b;
+    float const ratio = (along_x ? b : a) / (r != 0.0f ? r : 1.0f);
+    float const phi = kPiOver4 * ratio;
+    float const p2 = phi * phi;
+    float const sine =
+        phi * (1.0f + p2 * (-1.0f / 6 + p2 * (1.0f / 120 + p2 * (-1.0f / 5040 + p2 * (1.0f / 362880)))));
+    float const cosine = 1.0f + p2 * (-0.5f + p2 * (1.0f / 24 + p2 * (-1.0f / 720 + p2 * (1.0f / 40320))));
+    return {r * (along_x ? cosine : sine), r * (along_x ? sine : cosine)};
 }
 inline Vec2 disk_to_square(Vec2 p) {
     float const r = std::sqrt(p.x * p.x + p.y * p.y);

@@ -29,6 +29,7 @@ struct WorldCounts {
 class RayCaster;  // Embree
 struct RawHit;
 class LightTable;  // all lights, and how one is chosen
+struct LightEntry;
 struct WorldParts;
 struct Emitter;
 struct TraceSums;  // world/floor.h
@@ -78,8 +79,10 @@ class World {
     World();
     void complete(RawHit const& raw, SurfaceHit& hit) const;
     float passing_share(Ray ray, float t_max, RayStats& stats) const;
-    std::optional<LightSample> sample_light_without_surface(LightId id, Vec3 p, Vec2 u,
+    std::optional<LightSample> sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
                                                             Wavelengths const& lambda) const;
+    std::optional<LightSample> sample_area_light(LightEntry const& entry, float pmf, Vec3 p, Vec2 u,
+                                                 Wavelengths const& lambda) const;
 
     std::unique_ptr<Scene> scene_;
     std::unique_ptr<Assets> assets_;
