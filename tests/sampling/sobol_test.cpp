@@ -121,9 +121,9 @@ TEST_CASE("scrambles of different keys are independent") {
     std::vector<double> o(16 * 16);
     int const m = 200'000;
     for (int k = 0; k < m; ++k) {
-        float const a = sobol_1d(reverse_bits(3), mix64(static_cast<std::uint64_t>(k)));
+        float const a = sobol_1d(reverse_bits(3u), mix64(static_cast<std::uint64_t>(k)));
         float const b =
-            sobol_1d(reverse_bits(3), mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
+            sobol_1d(reverse_bits(3u), mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
         ++o[static_cast<std::size_t>(a * 16) * 16 + static_cast<std::size_t>(b * 16)];
     }
     CHECK(chi_square(o, std::vector<double>(256, m / 256.0)).p >= 0.001);
