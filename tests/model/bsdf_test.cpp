@@ -32,7 +32,7 @@ double throughput(BsdfSample const& s, int lane = 0) {
 
 TEST_CASE("diffuse: samples by the density, from both sides and at grazing angles") {
     Bsdf const b = DiffuseBsdf{Spectrum(0.2f, 0.5f, 0.7f, 1.0f)};
-    int const n = samples(100'000, 1'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     SphereCells const cells(40, 24);
     auto const directions = outgoing();
     double const alpha = sidak(2 * static_cast<int>(directions.size()));

@@ -117,7 +117,7 @@ TEST_CASE("spherical cameras see every direction") {
     check_direction(lat_long.ray({200, 100}, {0, 0}).ray.d, {-1, 0, 0});
     SphereCells const cells(20, 20);
     Random r(2);
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     for (auto const kind : {SphericalMappingKind::EquiRectangular, SphericalMappingKind::EqualArea}) {
         auto const c = make(SphericalCamera{kind}, {100, 100});
         std::vector<double> o(cells.size());

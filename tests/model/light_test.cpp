@@ -188,7 +188,7 @@ TEST_CASE("a constant sky: uniform, radiance by scale or by the illuminance of a
     SphereCells const cells(20, 20);
     std::vector<double> o(cells.size());
     Random r(2);
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     for (int i = 0; i < n; ++i) {
         auto const s = l.sample({0, 0, 0}, random_square(r));
         REQUIRE(s);
@@ -213,7 +213,7 @@ TEST_CASE("a constant sky: uniform, radiance by scale or by the illuminance of a
 }
 
 TEST_CASE("environment pictures with a bright spot: samples by the density, which integrates to 1") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(6);
     Picture const square("square", 32, 32, [](int x, int y) { return sky_with_sun(x, y, 20, 7); });
     Picture const lat_long("latlong", 48, 24, [](int x, int y) { return sky_with_sun(x, y, 47, 9); });

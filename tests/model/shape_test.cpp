@@ -152,7 +152,7 @@ TEST_CASE("samples lie on the surface, within its bounds, with outward normals, 
     for_analytic([&](auto const& shape) {
         Random r(1);
         Bounds3 const b = bounds(shape);
-        int const n = samples(100'000, 1'000'000);
+        int const n = samples(1'000'000, 4'000'000);
         for (std::uint32_t part = 0; part < part_count(shape); part += std::max(1u, part_count(shape) / 2)) {
             std::vector<double> o(20 * 20);
             for (int i = 0; i < n; ++i) {
@@ -200,7 +200,7 @@ TEST_CASE("areas agree with chords: random lines through a ball cross a surface 
         BoundingSphere const ball = bounding_sphere(b);
         double const radius = static_cast<double>(ball.radius) * 1.001 + 1e-3;
         Mean crossings;
-        int const n = samples(300'000, 3'000'000);
+        int const n = samples(1'000'000, 4'000'000);
         for (int i = 0; i < n; ++i) {
             Vec3 const d = random_direction(r);
             Frame const f = frame_from_z(d);
@@ -335,7 +335,7 @@ TEST_CASE(
 TEST_CASE("a ray that leaves a convex shape to its outside does not hit it again") {
     auto const leave = [&](auto const& shape, bool whole, std::uint64_t seed) {
         Random r(seed);
-        int again = 0, n = samples(200'000, 1'200'000);
+        int again = 0, n = samples(1'000'000, 4'000'000);
         for (int i = 0; i < n; ++i) {
             auto const part = r.below(part_count(shape));
             // From a hit, and from a sample of the shape as a light.
@@ -404,7 +404,7 @@ TEST_CASE("bilinear patches: hits, samples, density, normals") {
         }
         // The density by area, drawn as said: the mean of 1 / pdf is the area.
         Mean mean;
-        int const n = samples(200'000, 2'000'000);
+        int const n = samples(1'000'000, 4'000'000);
         std::vector<double> o(400);
         for (int i = 0; i < n; ++i) {
             Vec2 const u = random_square(r);
@@ -471,7 +471,7 @@ TEST_CASE("triangles: points, normals, flips, tangents, samples") {
     // Uniform by area: barycentric coordinates in small congruent triangles; points within their error of the plane.
     Random r(7);
     std::vector<double> o(200);
-    int const count = samples(100'000, 1'000'000);
+    int const count = samples(1'000'000, 4'000'000);
     for (int i = 0; i < count; ++i) {
         ShapeSample const q = sample_triangle(m, 0, false, random_square(r));
         REQUIRE(q.pdf_area == doctest::Approx(1 / static_cast<double>(triangle_area(m, 0))));
@@ -517,7 +517,7 @@ TEST_CASE("mapped surfaces: the side is kept under mirrors, area stretches under
         Sphere const sphere{1, -1, 1, kTwoPi};
         Mean area_mean;
         Vec3 const centre = map.point({0, 0, 0});
-        for (int i = 0; i < samples(200'000, 2'000'000); ++i) {
+        for (int i = 0; i < samples(1'000'000, 4'000'000); ++i) {
             ShapeSample const local = sample(sphere, 0, random_square(r));
             ShapeSample const s = transformed(map, local);
             REQUIRE(std::abs(length(s.n) - 1) < 1e-5f);

@@ -275,7 +275,7 @@ TEST_CASE("mixed materials: chosen as often as the amount says, and the random n
     MaterialId const always = s.add(Material{MixMaterial{a, b, add_number(s, 5)}, "", {}});
     Assets const assets(s);
     Random r(1);
-    int const n = samples(200'000, 1'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     std::vector<double> o(3);
     for (int i = 0; i < n; ++i) {
         double u = r.uniform();

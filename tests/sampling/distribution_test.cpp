@@ -49,7 +49,7 @@ TEST_CASE(
 
 TEST_CASE("alias table: indices by weight, leftover uniform") {
     Random r(1);
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(2 * 6);
     for (int const size : {1, 2, 3, 10, 100, 1000}) {
         auto const w = random_weights(r, size, size > 3);
@@ -122,7 +122,7 @@ TEST_CASE("alias table: nothing to choose from") {
 
 TEST_CASE("Distribution1D: samples, density, inverse") {
     Random r(3);
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(5);
     for (int const size : {1, 2, 7, 64, 1000}) {
         auto const f = random_weights(r, size, size > 2);
@@ -199,7 +199,7 @@ TEST_CASE("Distribution1D: all zero is uniform, outside is 0") {
 
 TEST_CASE("Distribution2D: samples, density, inverse, zero rows") {
     Random r(4);
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     int const w = 13, h = 9;
     auto f = random_weights(r, w * h, true);
     for (int x = 0; x < w; ++x) f[static_cast<std::size_t>(4 * w + x)] = 0;  // a dark row

@@ -86,7 +86,7 @@ TEST_CASE("seed, stream, path, pass and dimension all matter") {
 
 TEST_CASE("dimensions, paths, streams and passes are independent of each other") {
     // Pairs of numbers that differ in one key only fill the square evenly.
-    int const n = samples(100'000, 1'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     struct Pair {
         char const* what;
         std::uint64_t stream, path, pass;
@@ -120,7 +120,7 @@ TEST_CASE("dimensions, paths, streams and passes are independent of each other")
 }
 
 TEST_CASE("each sampler is uniform over paths and passes") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(6);
     for (Sequence const& s : sequences(7)) {
         std::vector<double> one(1000);

@@ -86,7 +86,7 @@ TEST_CASE("an Owen scramble is nested: equal leading bits stay equal, the next o
 }
 
 TEST_CASE("each point alone is uniform over scrambles") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(3);
     for (std::uint32_t const index : {0u, 1u, 77777u}) {
         std::vector<double> o(32 * 32);

@@ -83,7 +83,7 @@ double sum(std::vector<double> const& v) {
 }  // namespace
 
 TEST_CASE("sphere, hemispheres and cones are drawn from their densities") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(5);
     auto const sphere = sphere_chi_square(
         square_to_uniform_sphere, [](Vec3) { return kUniformSpherePdf; }, n, 1);
@@ -132,7 +132,7 @@ TEST_CASE("a small cone stays exact") {
 }
 
 TEST_CASE("the disk is filled evenly") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     std::vector<double> o(32 * 64);
     Random r(7);
     for (int i = 0; i < n; ++i) {
@@ -150,7 +150,7 @@ TEST_CASE("the disk is filled evenly") {
 }
 
 TEST_CASE("the triangle is filled evenly") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     std::vector<double> o(20 * 20 * 2);
     Random r(8);
     for (int i = 0; i < n; ++i) {
@@ -253,7 +253,7 @@ TEST_CASE("equal-area square: directions go on across its edges") {
 }
 
 TEST_CASE("linear, tent and bilinear densities") {
-    int const n = samples(200'000, 2'000'000);
+    int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(6);
     for (auto const& [a, b] : {std::pair{1.0f, 3.0f}, {2.0f, 0.0f}, {0.0f, 1.0f}, {5.0f, 5.0f}}) {
         auto const c = square_chi_square(
