@@ -23,6 +23,9 @@ ImageId image_of(Params& p, EnvironmentMapping* mapping = nullptr) {
     return context.scene.add(ImageFile{context.resolve(where, name).string(), "", where});
 }
 
+/// What a picture's rgb are shares of: the ColorSpace in force is not that of pictures, which are read as sRGB.
+Spd picture_white() { return RgbIlluminantSpd{{1, 1, 1}}; }
+
 /// Power or illuminance; as in pbrt, 0 and less count as not given.
 float output(Params& p, char const* name) {
     float const value = p.number(name, -1);
@@ -76,6 +79,7 @@ InfiniteLight infinite(Params& p) {
         p.fail("give either \"L\" or \"filename\", not both");
     l.radiance = emission(p, "L");
     l.image = image_of(p, &l.mapping);
+    if (l.image.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
     l.illuminance = output(p, "illuminance");
     if (p.find("portal", {ParamType::Point3})) p.note("portals are not used yet: the whole sky is sampled");
@@ -110,6 +114,7 @@ AreaLight make_area_light(std::string const& type, Params& p) {
         p.fail("give either \"L\" or \"filename\", not both");
     l.radiance = emission(p, "L");
     l.image = image_of(p);
+    if (l.image.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
     l.power = output(p, "power");
     l.two_sided = p.boolean("twosided", false);

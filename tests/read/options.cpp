@@ -233,7 +233,10 @@ TEST_CASE("colour spaces") {
     // A light is white of its space, by default and as rgb; only ACES has another white.
     auto const lights = read_world(
         "LightSource \"point\" ColorSpace \"rec2020\" LightSource \"point\" ColorSpace "
-        "\"aces2065-1\" LightSource \"point\" LightSource \"point\" \"rgb I\" [1 1 1]");
+        "\"aces2065-1\" LightSource \"point\" LightSource \"point\" \"rgb I\" [1 1 1]"
+        " LightSource \"infinite\" \"string filename\" \"/sky.exr\"");
+    // Pictures are sRGB wherever they are named.
+    CHECK(as<RgbIlluminantSpd>(as<InfiniteLight>(lights.lights.at(4).kind).radiance).white == RgbWhite::D65);
     auto const light = [&](std::size_t i) {
         return as<RgbIlluminantSpd>(as<PointLight>(lights.lights.at(i).kind).intensity);
     };
