@@ -1,13 +1,15 @@
 #include "bytes.h"
 
+#include <fcntl.h>
+#include <linux/magic.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
 #include <zlib.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
-#include <system_error>
 
 namespace nephroid {
 
@@ -23,6 +25,17 @@ struct Inflater {
     }
     Inflater(Inflater const&) = delete;
     Inflater& operator=(Inflater const&) = delete;
+};
+
+struct Descriptor {
+    int fd = -1;
+
+    explicit Descriptor(int f) : fd(f) {}
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+    Descriptor(Descriptor const&) = delete;
+    Descriptor& operator=(Descriptor const&) = delete;
 };
 
 FileBytes too_long() {
@@ -64,27 +77,38 @@ FileBytes inflate_if_gzip(std::string bytes, std::size_t limit) {
 }
 
 FileBytes read_bytes(std::filesystem::path const& path) {
-    std::error_code error;
-    auto const status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) return {{}, "does not exist"};
-    if (!std::filesystem::is_regular_file(status)) return {{}, "is not a regular file"};
-    auto const size = std::filesystem::file_size(path, error);
-    if (!error && size > kMaxFileBytes) return too_long();
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0)
+        return {
+            {},
+            errno == ENOENT ? "does not exist" : std::string("cannot be opened: ") + std::strerror(errno)};
+    // To open a device can do things already. What was looked at may be another file by now, so it is asked again below,
+    // and a FIFO is not waited for.
+    if (!S_ISREG(status.st_mode)) return {{}, "is not a regular file"};
+    Descriptor const file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    if (file.fd < 0) return {{}, std::string("cannot be opened: ") + std::strerror(errno)};
+    struct statfs system {};
+    if (::fstat(file.fd, &status) != 0 || ::fstatfs(file.fd, &system) != 0) return {{}, "cannot be read"};
+    if (!S_ISREG(status.st_mode)) return {{}, "is not a regular file"};
+    if (system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC)
+        return {{}, "is not a regular file: it belongs to the system"};
+    auto const size = static_cast<std::size_t>(status.st_size);
+    if (size > kMaxFileBytes) return too_long();
 
-    auto const close = [](std::FILE* f) { std::fclose(f); };
-    std::unique_ptr<std::FILE, decltype(close)> const file(std::fopen(path.c_str(), "rb"), close);
-    if (!file) return {{}, std::string("cannot be opened: ") + std::strerror(errno)};
-    std::string bytes;
-    bytes.resize(error ? 0 : size);
-    std::size_t used = std::fread(bytes.data(), 1, bytes.size(), file.get());
-    // The size is only a hint: files grow, and some file systems say 0.
-    std::array<char, 1 << 16> block;
-    bytes.resize(used);
-    while (std::size_t const n = std::fread(block.data(), 1, block.size(), file.get())) {
-        bytes.append(block.data(), n);
-        if (bytes.size() > kMaxFileBytes) return too_long();
+    // One byte more than there should be: the last read, which finds the end, then needs no more room.
+    std::string bytes(size + 1, '\0');
+    std::size_t used = 0;
+    while (true) {
+        if (used == bytes.size()) bytes.resize(used + (1 << 16));  // the file grew
+        auto const n = ::read(file.fd, bytes.data() + used, bytes.size() - used);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return {{}, std::string("cannot be read: ") + std::strerror(errno)};
+        if (n == 0) break;
+        if (size == 0) return {{}, "is not a regular file: it has no size, but holds data"};
+        used += static_cast<std::size_t>(n);
+        if (used > kMaxFileBytes) return too_long();
     }
-    if (std::ferror(file.get())) return {{}, "cannot be read"};
+    bytes.resize(used);
     return inflate_if_gzip(std::move(bytes));
 }
 

@@ -1,13 +1,18 @@
 #include "context.h"
 
 #include "bytes.h"
+#include "shown.h"
 
 #include <system_error>
 
 namespace nephroid {
 
+namespace {
+constexpr std::size_t kMaxPath = 1000;  // in messages: the end of a path matters more than that of a name
+}
+
 std::uint32_t Context::add_file(std::string shown, std::filesystem::path folder) {
-    scene.files.push_back(std::move(shown));
+    scene.files.push_back(nephroid::shown(shown, kMaxPath));
     folders_.push_back(std::move(folder));
     return static_cast<std::uint32_t>(scene.files.size() - 1);
 }
@@ -15,20 +20,20 @@ std::uint32_t Context::add_file(std::string shown, std::filesystem::path folder)
 std::filesystem::path Context::resolve(SourceLocation where, std::string const& name) const {
     std::filesystem::path const path = name;
     if (path.is_absolute() || where.file >= folders_.size()) return path;
-    auto const beside = (folders_[where.file] / path).lexically_normal();
-    if (where.file == 0) return beside;
-    std::error_code ignored;
-    if (std::filesystem::exists(beside, ignored)) return beside;
     auto const below_first = (folders_[0] / path).lexically_normal();
-    return std::filesystem::exists(below_first, ignored) ? below_first : beside;
+    if (where.file == 0) return below_first;
+    std::error_code ignored;
+    if (std::filesystem::exists(below_first, ignored)) return below_first;
+    auto const beside = (folders_[where.file] / path).lexically_normal();
+    return std::filesystem::exists(beside, ignored) ? beside : below_first;
 }
 
 std::string Context::read_named(SourceLocation where, std::string_view what,
                                 std::filesystem::path const& path) const {
     auto file = read_bytes(path);
     if (file.problem.empty()) return std::move(file.bytes);
-    auto const message =
-        scene.locate(where) + ": " + std::string(what) + " \"" + path.string() + "\" " + file.problem;
+    auto const message = scene.locate(where) + ": " + std::string(what) + " \"" +
+                         shown(path.string(), kMaxPath) + "\" " + file.problem;
     throw Error(file.too_long ? ErrorKind::Limit : ErrorKind::Input, message);
 }
 

@@ -17,8 +17,8 @@ class Context {
 
     /// Registers a file that locations may point into. `folder` is where the names it mentions start.
     std::uint32_t add_file(std::string shown, std::filesystem::path folder);
-    /// The path of a file that is named at `where`: relative to the file that names it or, where nothing is there, to
-    /// the first file (which is what pbrt does for included files).
+    /// The path of a file that is named at `where`: relative to the first file, as in pbrt, or, where nothing is there,
+    /// to the file that names it.
     [[nodiscard]] std::filesystem::path resolve(SourceLocation where, std::string const& name) const;
     /// Contents of a file named at `where`; fails there, with `what` ("Include", "spectrum"), when it cannot be read.
     [[nodiscard]] std::string read_named(SourceLocation where, std::string_view what,

@@ -1,4 +1,5 @@
 #include "options.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,7 @@ FilmSettings make_film(std::string const& type, Params& p) {
     if (type != "rgb" && type != "gbuffer" && type != "spectral")
         p.fail("unknown film" + did_you_mean(type, {"rgb", "gbuffer", "spectral"}));
     FilmSettings film;
+    film.where = p.where();
     read_resolution(p, film);
     read_crop(p, film);
     film.filename = p.string("filename", "");
@@ -66,7 +68,7 @@ FilmSettings make_film(std::string const& type, Params& p) {
     film.half_float = p.boolean("savefp16", true);
     p.number("diagonal", 35);  // of use to realistic cameras only
     if (auto const sensor = p.string("sensor", "cie1931"); sensor != "cie1931")
-        p.note("sensor \"" + sensor + "\" is not simulated yet: cie1931 stands in");
+        p.note("sensor \"" + shown(sensor) + "\" is not simulated yet: cie1931 stands in");
     if (type == "gbuffer") {
         film.aovs = true;
         p.find("coordinatesystem", {ParamType::String});

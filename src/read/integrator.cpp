@@ -12,9 +12,11 @@ int max_depth(Params& p) {
     int depth = p.integer("maxdepth", 5);
     if (p.find("segments")) {
         if (p.find("maxdepth")) p.fail("give either \"maxdepth\" or \"segments\", not both");
-        depth = p.integer("segments", 1) - 1;
+        int const segments = p.integer("segments", 1);
+        if (segments < 1) p.fail("\"segments\" must be at least 1");
+        depth = segments - 1;
     }
-    if (depth < 0) p.fail("\"maxdepth\" must not be negative, nor \"segments\" below 1");
+    if (depth < 0) p.fail("\"maxdepth\" must not be negative");
     return depth;
 }
 

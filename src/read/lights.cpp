@@ -1,4 +1,5 @@
 #include "lights.h"
+#include "shown.h"
 
 #include "spectra.h"
 
@@ -8,6 +9,8 @@ namespace nephroid {
 
 namespace {
 
+constexpr auto kColour = {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody};
+
 ImageId image_of(Params& p, EnvironmentMapping* mapping = nullptr) {
     auto const name = p.string("filename", "");
     if (mapping)
@@ -16,15 +19,28 @@ ImageId image_of(Params& p, EnvironmentMapping* mapping = nullptr) {
             EnvironmentMapping::LatLong}[p.choice("mapping", {"bysize", "equalarea", "latlong"}, 0)];
     if (name.empty()) return {};
     auto& context = p.context();
-    auto const where = p.find("filename")->where;
+    auto const where = p.find("filename", {ParamType::String})->where;
     return context.scene.add(ImageFile{context.resolve(where, name).string(), "", where});
+}
+
+/// What a picture's rgb are shares of: the ColorSpace in force is not that of pictures, which are read as sRGB.
+Spd picture_white() { return RgbIlluminantSpd{{1, 1, 1}}; }
+
+/// Power or illuminance; as in pbrt, 0 and less count as not given.
+float output(Params& p, char const* name) {
+    float const value = p.number(name, -1);
+    if (value > 0) return value;
+    if (auto const* given = p.find(name, {ParamType::Float}))
+        p.context().note(given->where,
+                         p.what() + ": \"" + shown(name) + "\" is not above 0 and counts as not given");
+    return -1;
 }
 
 PointLight point(Params& p) {
     PointLight l;
     l.intensity = emission(p, "I");
     l.scale = p.number("scale", 1);
-    l.power = p.number("power", -1);
+    l.power = output(p, "power");
     l.from = p.point3("from", {0, 0, 0});
     return l;
 }
@@ -33,11 +49,15 @@ SpotLight spot(Params& p) {
     SpotLight l;
     l.intensity = emission(p, "I");
     l.scale = p.number("scale", 1);
-    l.power = p.number("power", -1);
+    l.power = output(p, "power");
     l.from = p.point3("from", {0, 0, 0});
     l.to = p.point3("to", {0, 0, 1});
     l.cone_angle = radians(p.number("coneangle", 30));
     l.cone_delta = radians(p.number("conedeltaangle", 5));
+    if (l.cone_delta > l.cone_angle && l.cone_angle > 0) {
+        p.note("\"conedeltaangle\" is above \"coneangle\" and was clamped to it");
+        l.cone_delta = l.cone_angle;
+    }
     if (l.from == l.to) p.fail("\"from\" and \"to\" are the same point: it has no direction");
     return l;
 }
@@ -46,7 +66,7 @@ DistantLight distant(Params& p) {
     DistantLight l;
     l.radiance = emission(p, "L");
     l.scale = p.number("scale", 1);
-    l.illuminance = p.number("illuminance", -1);
+    l.illuminance = output(p, "illuminance");
     l.from = p.point3("from", {0, 0, 0});
     l.to = p.point3("to", {0, 0, 1});
     if (l.from == l.to) p.fail("\"from\" and \"to\" are the same point: it has no direction");
@@ -55,18 +75,20 @@ DistantLight distant(Params& p) {
 
 InfiniteLight infinite(Params& p) {
     InfiniteLight l;
-    if (p.find("L") && p.find("filename")) p.fail("give either \"L\" or \"filename\", not both");
+    if (p.find("L", kColour) && p.find("filename", {ParamType::String}))
+        p.fail("give either \"L\" or \"filename\", not both");
     l.radiance = emission(p, "L");
     l.image = image_of(p, &l.mapping);
+    if (l.image.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
-    l.illuminance = p.number("illuminance", -1);
+    l.illuminance = output(p, "illuminance");
     if (p.find("portal", {ParamType::Point3})) p.note("portals are not used yet: the whole sky is sampled");
     return l;
 }
 
 /// The light of a picture or a measured lamp, without either.
 PointLight stand_in(Params& p, std::string const& type) {
-    p.note("\"" + type + "\" is not rendered yet: a point light stands in");
+    p.note("\"" + shown(type) + "\" is not rendered yet: a point light stands in");
     p.find("filename"), p.find("fov");
     return point(p);
 }
@@ -88,11 +110,13 @@ AreaLight make_area_light(std::string const& type, Params& p) {
     if (type == "area") p.fail("\"area\" is of pbrt-v2; in pbrt-v4 it is \"diffuse\"");
     if (type != "diffuse") p.fail("unknown area light; the only one is \"diffuse\"");
     AreaLight l;
-    if (p.find("L") && p.find("filename")) p.fail("give either \"L\" or \"filename\", not both");
+    if (p.find("L", kColour) && p.find("filename", {ParamType::String}))
+        p.fail("give either \"L\" or \"filename\", not both");
     l.radiance = emission(p, "L");
     l.image = image_of(p);
+    if (l.image.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
-    l.power = p.number("power", -1);
+    l.power = output(p, "power");
     l.two_sided = p.boolean("twosided", false);
     l.where = p.where();
     return l;

@@ -1,5 +1,6 @@
 // The kinds of materials, with pbrt-v4's parameters and defaults.
 #include "materials.h"
+#include "shown.h"
 #include "spectra.h"
 
 #include <array>
@@ -22,6 +23,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOldName
      {"disney", "\"coateddiffuse\""},
      {"kdsubsurface", "\"subsurface\""},
      {"fourier", "\"measured\""}}};
+
+/// What a spectrum may be given as.
+constexpr auto kSpectral = {ParamType::Rgb, ParamType::Spectrum, ParamType::Texture, ParamType::Blackbody};
 
 Spd copper(char const* what) { return NamedSpd{std::string("metal-Cu-") + what}; }
 
@@ -71,14 +75,15 @@ MaterialKind Materials::approximated(std::string const& type, Params& p) {
                                            {"sheen", 0.5f},
                                            {"cloth", 0.5f}})
         if (type == name) {
-            p.note("\"" + type + "\" is not rendered yet: a diffuse surface of its reflectance stands in");
+            p.note("\"" + shown(type) +
+                   "\" is not rendered yet: a diffuse surface of its reflectance stands in");
             p.ignore_all();
             return diffuse(p, reflectance);
         }
     if (type == "hair") {
         p.note("\"hair\" is not rendered yet: a diffuse surface of its color stands in");
         p.ignore_all();
-        auto const* name = p.find("color") ? "color" : "reflectance";
+        auto const* name = p.find("color", kSpectral) ? "color" : "reflectance";
         return DiffuseMaterial{
             textures_.spectrum_param(p, name, Spd{ConstantSpd{0.5f}}, SpectrumRole::Albedo)};
     }
@@ -89,8 +94,8 @@ MaterialKind Materials::approximated(std::string const& type, Params& p) {
     }
     for (auto const& [old, now] : kOldNames)
         if (type == old)
-            p.fail("material \"" + type + "\" is of pbrt-v3; in pbrt-v4 write " + std::string(now));
-    p.fail("unknown material \"" + type + "\"" +
+            p.fail("material \"" + shown(type) + "\" is of pbrt-v3; in pbrt-v4 write " + std::string(now));
+    p.fail("unknown material \"" + shown(type) + "\"" +
            did_you_mean(type, {"diffuse", "dielectric", "thindielectric", "conductor", "coateddiffuse",
                                "coatedconductor", "diffusetransmission", "subsurface", "hair", "measured",
                                "mix", "interface"}));
@@ -121,8 +126,8 @@ MaterialKind Materials::conductor(Params& p, std::string const& prefix) {
     auto const eta = prefix + "eta", k = prefix + "k";
     ConductorMaterial m;
     // "reflectance" has no prefix, not even in coatedconductor.
-    if (p.find("reflectance")) {
-        if (p.find(eta) || p.find(k))
+    if (p.find("reflectance", kSpectral)) {
+        if (p.find(eta, kSpectral) || p.find(k, kSpectral))
             p.fail("give either \"reflectance\" or \"" + eta + "\" and \"" + k + "\", not both");
         m.reflectance = textures_.spectrum_param(p, "reflectance", {}, SpectrumRole::Albedo);
         return m;
@@ -138,12 +143,17 @@ MaterialKind Materials::mix(Params& p, Pending const& pending) {
     std::array<MaterialId, 2> ids;
     for (std::size_t i = 0; i < 2; ++i) {
         auto const it = names_.find(names[i]);
-        // Earlier ones only: so there is no cycle.
-        if (it == names_.end() || !it->second.defined || it->second.order >= pending.order) {
-            std::vector<std::string> earlier;
+        // As in pbrt, which makes all named ones first: a named one sees earlier ones only, so there is no cycle.
+        bool const is_named = !pending.name.empty();
+        auto const visible = [&](Name const& n) {
+            return n.defined && (!is_named || n.order < pending.order);
+        };
+        if (it == names_.end() || !visible(it->second)) {
+            std::vector<std::string> candidates;
             for (auto const& [name, entry] : names_)
-                if (entry.defined && entry.order < pending.order) earlier.push_back(name);
-            p.fail("no material \"" + names[i] + "\" is defined before" + did_you_mean(names[i], earlier));
+                if (visible(entry)) candidates.push_back(name);
+            p.fail("no material \"" + shown(names[i]) + "\" is defined" + (is_named ? " before" : "") +
+                   did_you_mean(names[i], candidates));
         }
         ids[i] = it->second.id;
     }

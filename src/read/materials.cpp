@@ -1,4 +1,5 @@
 #include "materials.h"
+#include "shown.h"
 
 #include <utility>
 
@@ -23,10 +24,15 @@ void Materials::define_named(std::string name, ParamList params, SharedParams in
                              SourceLocation where) {
     auto const id = named(name, where);
     auto& entry = names_.find(name)->second;
-    if (entry.defined) context_.fail(where, "material \"" + name + "\" is already defined");
+    if (entry.defined) context_.fail(where, "material \"" + shown(name) + "\" is already defined");
     entry.defined = true;
     entry.order = ++order_;
     pending_.push_back({id, {}, std::move(params), std::move(inherited), where, std::move(name), order_});
+}
+
+void Materials::use(MaterialId id) {
+    if (used_.size() <= id.value) used_.resize(id.value + 1);
+    used_[id.value] = true;
 }
 
 MaterialId Materials::standard() {
@@ -43,15 +49,21 @@ void Materials::finish() {
     for (auto const& [name, entry] : names_)
         if (entry.defined) defined.push_back(name);
     for (auto const& [name, entry] : names_)
-        if (!entry.defined)
-            context_.fail(entry.first_use,
-                          "no material \"" + name + "\" is defined" + did_you_mean(name, defined));
+        if (!entry.defined) {
+            auto const message =
+                "no material \"" + shown(name) + "\" is defined" + did_you_mean(name, defined);
+            if (entry.id.value < used_.size() && used_[entry.id.value])
+                context_.fail(entry.first_use, message);
+            context_.note(entry.first_use, message + ", but no shape uses it");
+            context_.scene.materials[entry.id.value].kind = InterfaceMaterial{};
+        }
     for (auto& pending : std::exchange(pending_, {})) make(pending);
 }
 
 void Materials::make(Pending& pending) {
     bool const is_named = !pending.name.empty();
-    auto what = is_named ? "MakeNamedMaterial \"" + pending.name + "\"" : "Material \"" + pending.type + "\"";
+    auto what = is_named ? "MakeNamedMaterial \"" + shown(pending.name) + "\""
+                         : "Material \"" + shown(pending.type) + "\"";
     Params p(context_, std::move(what), pending.where, std::move(pending.params),
              std::move(pending.inherited));
     auto type = pending.type;

@@ -14,8 +14,10 @@ class Materials {
 
     MaterialId define(std::string type, ParamList params, SharedParams inherited, SourceLocation where);
     void define_named(std::string name, ParamList params, SharedParams inherited, SourceLocation where);
-    /// The material of that name, which must be defined by the end of the file.
+    /// The material of that name, which must be defined by the end of the file if a shape uses it.
     MaterialId named(std::string const& name, SourceLocation where);
+    /// A shape is made of it: from now on its name has to be defined.
+    void use(MaterialId id);
     /// pbrt's default: diffuse 0.5.
     MaterialId standard();
 
@@ -53,6 +55,7 @@ class Materials {
     Textures& textures_;
     std::vector<Pending> pending_;
     std::map<std::string, Name, std::less<>> names_;
+    std::vector<bool> used_;  // by shapes; parallel to the first of the scene's materials
     std::size_t order_ = 0;
     MaterialId standard_;
 };

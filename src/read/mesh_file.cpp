@@ -1,5 +1,7 @@
 #include "mesh_file.h"
 
+#include "shown.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -21,12 +23,16 @@ bool is_mesh_file(std::filesystem::path const& path) {
 }
 
 MeshFile read_mesh(Context& context, SourceLocation where, std::filesystem::path const& path) {
-    auto const extension = inner_extension(path);
-    if (!is_mesh_file(path))
-        context.fail(where, "mesh file \"" + path.string() + "\": only .ply and .obj are read");
     auto const bytes = context.read_named(where, "mesh file", path);
-    if (extension == ".ply") return parse_ply(bytes, path.string());
-    return parse_obj(bytes, path.string(), path.parent_path());
+    auto const name = shown(path.string(), 1000);
+    auto const extension = inner_extension(path);
+    if (extension == ".obj") return parse_obj(bytes, name, path.parent_path());
+    // A name that says nothing: PLY can be told by its first word.
+    if (extension != ".ply" && !bytes.starts_with("ply\n") && !bytes.starts_with("ply\r"))
+        context.fail(where,
+                     "mesh file \"" + name +
+                         "\" is neither called .ply or .obj, nor does it begin with \"ply\"; rename it");
+    return parse_ply(bytes, name);
 }
 
 }  // namespace nephroid

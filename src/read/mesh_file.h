@@ -14,7 +14,7 @@ struct MeshFile {
     std::vector<std::string> notes;  // each begins with the file's name
 };
 
-/// By extension (with or without .gz); `where` names it.
+/// By extension (with or without .gz), or by content where that says nothing; `where` names it.
 MeshFile read_mesh(Context& context, SourceLocation where, std::filesystem::path const& path);
 bool is_mesh_file(std::filesystem::path const& path);
 /// The extension in lower case, looking through .gz.

@@ -34,8 +34,12 @@ std::vector<int> indices(Params& p, std::size_t n, std::size_t point_count) {
     auto const fail = [&](std::string const& text) {
         p.context().fail(where, p.what() + ": \"indices\": " + text);
     };
-    if (out.size() % n != 0)
-        fail(std::to_string(out.size()) + " entries are not a multiple of " + std::to_string(n));
+    if (out.size() % n != 0) {
+        p.context().note(where, p.what() + ": \"indices\": " + std::to_string(out.size()) +
+                                    " entries are not a multiple of " + std::to_string(n) +
+                                    ": the last ones are dropped");
+        out.resize(out.size() - out.size() % n);
+    }
     for (int const i : out)
         if (i < 0 || static_cast<std::size_t>(i) >= point_count)
             fail(std::to_string(i) + " is not a point; there are " + std::to_string(point_count));

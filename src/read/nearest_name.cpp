@@ -1,4 +1,5 @@
 #include "params.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <cctype>
@@ -46,7 +47,7 @@ std::string nearest_name(std::string_view word, std::vector<std::string> const& 
 
 std::string did_you_mean(std::string_view word, std::vector<std::string> const& candidates) {
     auto const name = nearest_name(word, candidates);
-    return name.empty() ? std::string{} : " (did you mean \"" + name + "\"?)";
+    return name.empty() ? std::string{} : " (did you mean \"" + shown(name) + "\"?)";
 }
 
 }  // namespace nephroid

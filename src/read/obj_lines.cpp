@@ -1,6 +1,7 @@
 #include "obj_lines.h"
 
 #include "number.h"
+#include "shown.h"
 
 #include "math/error.h"
 
@@ -72,7 +73,7 @@ class LineParser {
     float number(char const* of) {
         auto const w = word();
         auto const v = parse_float(w);
-        if (!v) fail(std::string(of) + ": \"" + std::string(w.substr(0, 40)) + "\" is not a finite number");
+        if (!v) fail(std::string(of) + ": \"" + shown(w, 40) + "\" is not a finite number");
         return *v;
     }
 
@@ -89,7 +90,7 @@ class LineParser {
             float const u = number("vt");
             auto const w = word();
             auto const v = w.empty() ? std::optional<float>(0.0f) : parse_float(w);
-            if (!v) fail("vt: \"" + std::string(w.substr(0, 40)) + "\" is not a finite number");
+            if (!v) fail("vt: \"" + shown(w, 40) + "\" is not a finite number");
             out_.uv.emplace_back(u, *v);
         } else if (keyword == "f") {
             face();
@@ -107,7 +108,7 @@ class LineParser {
             std::error_code error;
             auto const status = std::filesystem::status(folder_ / std::string(w), error);
             if (!error && std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-                fail("mtllib \"" + std::string(w.substr(0, 40)) + "\" is not a regular file");
+                fail("mtllib \"" + shown(w, 40) + "\" is not a regular file");
         }
     }
 
@@ -136,17 +137,16 @@ class LineParser {
             if (slash == std::string_view::npos) return c;
             left.remove_prefix(slash + 1);
         }
-        fail("f: \"" + std::string(w.substr(0, 40)) + "\" has too many slashes");
+        fail("f: \"" + shown(w, 40) + "\" has too many slashes");
     }
 
     std::uint32_t index(std::string_view text, std::size_t count, std::size_t kind) {
         auto const v = parse_int(text);
-        if (!v || *v == 0)
-            fail("f: \"" + std::string(text.substr(0, 40)) + "\" is not an index; they count from 1");
+        if (!v || *v == 0) fail("f: \"" + shown(text, 40) + "\" is not an index; they count from 1");
         // Negative: from the last one so far.
         auto const absolute = *v > 0 ? *v : static_cast<std::int64_t>(count) + 1 + *v;
         if (absolute < 1 || absolute > std::numeric_limits<std::int32_t>::max())
-            fail("f: index " + std::string(text.substr(0, 40)) + " is out of range");
+            fail("f: index " + shown(text, 40) + " is out of range");
         auto const result = static_cast<std::uint32_t>(absolute);
         if (result > largest_[kind]) largest_[kind] = result, largest_line_[kind] = line_;
         return result;

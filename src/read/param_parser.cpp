@@ -1,6 +1,7 @@
 #include "param_parser.h"
 
 #include "number.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,8 +13,8 @@ namespace {
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kMaxParams = 1000;
 
-/// At most the first 40 bytes: messages quote what was found.
-std::string excerpt(std::string_view s) { return std::string(s.size() > 40 ? s.substr(0, 40) : s); }
+/// Messages quote what was found.
+std::string excerpt(std::string_view s) { return shown(s, 40); }
 
 /// What the values of a type must look like.
 enum class Form { Number, Integer, Bool, String, NumberOrString };
@@ -101,8 +102,8 @@ class ListParser {
             context_.fail(where, "\"" + excerpt(text) +
                                      "\": a parameter is declared as \"type name\", e.g. \"float fov\"");
         if (type_word == "color" || type_word == "xyz")
-            context_.fail(where, "parameter type \"" + std::string(type_word) +
-                                     "\" is of pbrt-v3; in pbrt-v4 it is \"rgb\"");
+            context_.fail(
+                where, "parameter type \"" + shown(type_word) + "\" is of pbrt-v3; in pbrt-v4 it is \"rgb\"");
         auto const type = param_type(type_word);
         if (!type)
             context_.fail(
@@ -117,7 +118,7 @@ class ListParser {
     Token required(Param const& p) {
         auto const token = tokens_.next();
         if (!token)
-            context_.fail(p.where, "parameter \"" + p.name + "\": the file ends before its values do");
+            context_.fail(p.where, "parameter \"" + shown(p.name) + "\": the file ends before its values do");
         return *token;
     }
 
@@ -175,14 +176,14 @@ class ListParser {
                 break;
         }
         std::string const quote = token.kind == Token::Kind::String ? "\"" : "";
-        context_.fail(tokens_.at(token), "parameter \"" + std::string(type_name(p.type)) + " " + p.name +
-                                             "\": " + quote + excerpt(token.text) + quote + " is not " +
-                                             wanted);
+        context_.fail(tokens_.at(token), "parameter \"" + std::string(type_name(p.type)) + " " +
+                                             shown(p.name) + "\": " + quote + excerpt(token.text) + quote +
+                                             " is not " + wanted);
     }
 
     void check_count(Param const& p) {
         auto const count = std::max({p.floats.size(), p.ints.size(), p.bools.size(), p.strings.size()});
-        auto const declared_as = "parameter \"" + std::string(type_name(p.type)) + " " + p.name + "\"";
+        auto const declared_as = "parameter \"" + std::string(type_name(p.type)) + " " + shown(p.name) + "\"";
         if (count == 0) context_.fail(p.where, declared_as + " has no value");
         if (p.type == ParamType::Blackbody && count == 2)
             context_.fail(p.where,

@@ -1,4 +1,5 @@
 #include "params.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <array>
@@ -30,6 +31,13 @@ constexpr std::array<TypeName, 16> kTypes{{{"bool", ParamType::Bool},
                                            {"spectrum", ParamType::Spectrum},
                                            {"blackbody", ParamType::Blackbody}}};
 
+/// `"float" or "texture"`
+std::string names_of(std::initializer_list<ParamType> types) {
+    std::string names;
+    for (auto const t : types) names += (names.empty() ? "\"" : " or \"") + std::string(type_name(t)) + "\"";
+    return names;
+}
+
 std::vector<Vec3> triples(Param const* p) {
     std::vector<Vec3> out;
     if (!p) return out;
@@ -53,13 +61,14 @@ std::optional<ParamType> param_type(std::string_view name) {
 }
 
 Params::Params(Context& context, std::string what, SourceLocation where, ParamList own,
-               SharedParams inherited)
+               SharedParams inherited, FileColorSpace color_space)
     : context_(&context),
       what_(std::move(what)),
       where_(where),
       own_(std::move(own)),
       used_(own_.size(), false),
-      inherited_(std::move(inherited)) {
+      inherited_(std::move(inherited)),
+      color_space_(color_space) {
     note_duplicates();
 }
 
@@ -68,30 +77,51 @@ void Params::note_duplicates() const {
         auto const later = std::find_if(own_.begin() + static_cast<std::ptrdiff_t>(i) + 1, own_.end(),
                                         [&](Param const& p) { return p.name == own_[i].name; });
         if (later != own_.end())
-            context_->note(later->where, what_ + ": parameter \"" + own_[i].name +
+            context_->note(later->where, what_ + ": parameter \"" + shown(own_[i].name) +
                                              "\" is given twice; the last one counts");
     }
 }
 
-Param const* Params::find(std::string_view name) {
+Param const* Params::find_own(std::string_view name) {
     if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) asked_.emplace_back(name);
     Param const* found = nullptr;
     for (std::size_t i = 0; i < own_.size(); ++i)
         if (own_[i].name == name) found = &own_[i], used_[i] = true;
-    if (!found && inherited_)
-        for (auto const& p : *inherited_)
-            if (p.name == name) found = &p;
     return found;
 }
 
+/// pbrt looks up by name and type, so an `Attribute` that means one entity does not disturb another with its name.
+Param const* Params::find_inherited(std::string_view name, std::initializer_list<ParamType> types) {
+    Param const* other = nullptr;
+    for (auto const* link = inherited_.get(); link; link = link->older.get())
+        for (auto const& p : link->params) {
+            if (p->name != name) continue;
+            if (std::find(types.begin(), types.end(), p->type) != types.end()) return p.get();
+            if (!other) other = p.get();
+        }
+    if (other && std::find(skipped_.begin(), skipped_.end(), other) == skipped_.end()) {
+        skipped_.push_back(other);
+        context_->note(other->where, what_ + ": parameter \"" + shown(other->name) +
+                                         "\" of Attribute is a \"" + std::string(type_name(other->type)) +
+                                         "\", not a " + names_of(types) + ": skipped");
+    }
+    return nullptr;
+}
+
+Param const* Params::find(std::string_view name) {
+    if (auto const* p = find_own(name)) return p;
+    for (auto const* link = inherited_.get(); link; link = link->older.get())
+        for (auto const& p : link->params)
+            if (p->name == name) return p.get();
+    return nullptr;
+}
+
 Param const* Params::find(std::string_view name, std::initializer_list<ParamType> types) {
-    auto const* p = find(name);
-    if (!p || std::find(types.begin(), types.end(), p->type) != types.end()) return p;
-    std::string wanted;
-    for (auto const t : types)
-        wanted += (wanted.empty() ? "\"" : " or \"") + std::string(type_name(t)) + "\"";
-    context_->fail(p->where, what_ + ": parameter \"" + p->name + "\" is a \"" +
-                                 std::string(type_name(p->type)) + "\"; it must be a " + wanted);
+    auto const* p = find_own(name);
+    if (!p) return find_inherited(name, types);
+    if (std::find(types.begin(), types.end(), p->type) != types.end()) return p;
+    context_->fail(p->where, what_ + ": parameter \"" + shown(p->name) + "\" is a \"" +
+                                 std::string(type_name(p->type)) + "\"; it must be a " + names_of(types));
 }
 
 Param const* Params::one(std::string_view name, ParamType type, std::size_t per_item) {
@@ -99,9 +129,9 @@ Param const* Params::one(std::string_view name, ParamType type, std::size_t per_
     if (!p) return p;
     auto const count = std::max({p->floats.size(), p->ints.size(), p->bools.size(), p->strings.size()});
     if (count != per_item)
-        context_->fail(p->where, what_ + ": parameter \"" + p->name + "\" needs " + std::to_string(per_item) +
-                                     (per_item == 1 ? " value, not " : " values, not ") +
-                                     std::to_string(count));
+        context_->fail(p->where,
+                       what_ + ": parameter \"" + shown(p->name) + "\" needs " + std::to_string(per_item) +
+                           (per_item == 1 ? " value, not " : " values, not ") + std::to_string(count));
     return p;
 }
 
@@ -130,7 +160,7 @@ std::size_t Params::choice(std::string_view name, std::initializer_list<std::str
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
     std::string list;
     for (auto const c : choices) list += (list.empty() ? "\"" : ", \"") + std::string(c) + "\"";
-    context_->fail(p->where, what_ + ": \"" + p->strings[0] + "\" is not a known \"" + p->name +
+    context_->fail(p->where, what_ + ": \"" + shown(p->strings[0]) + "\" is not a known \"" + shown(p->name) +
                                  "\"; use one of " + list);
 }
 
@@ -171,7 +201,7 @@ void Params::note_unused() {
     if (ignore_all_) return;
     for (std::size_t i = 0; i < own_.size(); ++i)
         if (!used_[i])
-            context_->note(own_[i].where, what_ + ": parameter \"" + own_[i].name +
+            context_->note(own_[i].where, what_ + ": parameter \"" + shown(own_[i].name) +
                                               "\" is unknown and ignored" +
                                               did_you_mean(own_[i].name, asked_));
 }

@@ -46,20 +46,29 @@ struct Param {
     SourceLocation where;
 };
 using ParamList = std::vector<Param>;
-/// What `Attribute` has set, shared among the saved graphics states.
-using SharedParams = std::shared_ptr<ParamList const>;
+/// What `Attribute` has set: a chain of lists, newest first. Links never change, so saved graphics states share them.
+struct AttributeParams {
+    std::vector<std::shared_ptr<Param const>> params;
+    std::shared_ptr<AttributeParams const> older;
+    std::size_t count = 0;  // in all of the chain
+};
+using SharedParams = std::shared_ptr<AttributeParams const>;
+/// The chain with `added` on top, which hide those of the same name and type below.
+SharedParams with_attributes(SharedParams const& before, ParamList added);
 
 /// The parameters of one directive. A question for a name that is there with another type fails. Own parameters win over
-/// those that `Attribute` set; the last of equals wins.
+/// those that `Attribute` set, of which those of another type are skipped with a note; the last of equals wins.
 class Params {
   public:
     /// `what` is what messages call the directive, e.g. `Shape "sphere"`. Keeps a reference to the context.
     Params(Context& context, std::string what, SourceLocation where, ParamList own,
-           SharedParams inherited = {});
+           SharedParams inherited = {}, FileColorSpace color_space = FileColorSpace::Srgb);
 
     [[nodiscard]] Context& context() const { return *context_; }
     [[nodiscard]] SourceLocation where() const { return where_; }
     [[nodiscard]] std::string const& what() const { return what_; }
+    /// The colour space in force at the directive, whose white is what a light is by default.
+    [[nodiscard]] FileColorSpace color_space() const { return color_space_; }
     void note(std::string const& text) const { context_->note(where_, what_ + ": " + text); }
     [[noreturn]] void fail(std::string const& text) const { context_->fail(where_, what_ + ": " + text); }
 
@@ -93,6 +102,8 @@ class Params {
 
   private:
     Param const* one(std::string_view name, ParamType type, std::size_t per_item);
+    Param const* find_own(std::string_view name);
+    Param const* find_inherited(std::string_view name, std::initializer_list<ParamType> types);
     void note_duplicates() const;
 
     Context* context_;
@@ -101,6 +112,8 @@ class Params {
     ParamList own_;
     std::vector<bool> used_;  // parallel to own_
     SharedParams inherited_;
+    FileColorSpace color_space_;
+    std::vector<Param const*> skipped_;  // inherited ones of the wrong type that a note has been given for
     std::vector<std::string> asked_;
     bool ignore_all_ = false;
 };

@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t kMaxBlocks = 4'000'000;  // 400 bytes each
 constexpr std::size_t kMaxIncludes = 32;
+// 32 files that each include the next one ten times would be read for longer than anybody waits.
+constexpr std::size_t kMaxIncludedFiles = 10'000;
+constexpr std::size_t kMaxIncludedBytes = std::size_t{4} << 30;
+constexpr std::size_t kMaxAttributes = 1000;  // look-ups are linear
 
 AffineRows rows_of(Mat4 const& m) {
     AffineRows r;
@@ -39,7 +43,8 @@ void PbrtReader::push(char kind, SourceLocation where) {
 
 void PbrtReader::pop(char kind, SourceLocation where) {
     char const* const end = kind == 'o' ? "ObjectEnd" : "AttributeEnd";
-    if (saved_.size() <= saved_floor_) context_.fail(where, std::string(end) + " without its Begin");
+    if (saved_.size() <= saved_floor_)
+        return context_.note(where, std::string(end) + " without its Begin is ignored");
     auto& top = saved_.back();
     if (top.kind != kind)
         context_.fail(where, std::string(end) + " closes what " +
@@ -61,19 +66,14 @@ void PbrtReader::attribute(Tokenizer& tokens, SourceLocation where) {
     constexpr std::array<std::string_view, 5> kTargets{"shape", "light", "material", "medium", "texture"};
     auto const it = std::find(kTargets.begin(), kTargets.end(), target);
     if (it == kTargets.end())
-        context_.fail(where, "Attribute \"" + target +
+        context_.fail(where, "Attribute \"" + shown(target) +
                                  "\": must be \"shape\", \"light\", \"material\", \"medium\" or \"texture\"");
     auto& shared = state_.attributes[static_cast<std::size_t>(it - kTargets.begin())];
-    // Saved states share the old list: make a new one, without what this directive sets anew.
-    auto added = parse_params(tokens, context_, state_.color_space);
-    ParamList list;
-    if (shared)
-        std::copy_if(shared->begin(), shared->end(), std::back_inserter(list), [&](Param const& old) {
-            return std::none_of(added.begin(), added.end(),
-                                [&](Param const& p) { return p.name == old.name; });
-        });
-    std::move(added.begin(), added.end(), std::back_inserter(list));
-    shared = std::make_shared<ParamList const>(std::move(list));
+    shared = with_attributes(shared, parse_params(tokens, context_, state_.color_space));
+    if (shared->count > kMaxAttributes)
+        throw Error(ErrorKind::Limit, context_.scene.locate(where) +
+                                          ": more than 1000 parameters are set by " + "Attribute \"" +
+                                          shown(target) + "\" at once; close blocks, or set fewer");
 }
 
 void PbrtReader::object_begin(Tokenizer& tokens, SourceLocation where) {
@@ -82,7 +82,7 @@ void PbrtReader::object_begin(Tokenizer& tokens, SourceLocation where) {
     push('o', where);
     auto& object = objects_[name];
     if (object.defined)
-        context_.fail(where, "object \"" + name + "\" is already defined at " +
+        context_.fail(where, "object \"" + shown(name) + "\" is already defined at " +
                                  context_.scene.locate(context_.scene[object.group].where));
     if (!object.group.valid()) object.group = context_.scene.add(Group{name, {}, {}, where});
     context_.scene.groups[object.group.value].where = where;
@@ -104,7 +104,7 @@ void PbrtReader::object_instance(Tokenizer& tokens, SourceLocation where) {
         object.group = context_.scene.add(Group{name, {}, {}, where});
         object.first_use = where;
     }
-    if (object.group == group_) context_.fail(where, "object \"" + name + "\" contains itself");
+    if (object.group == group_) context_.fail(where, "object \"" + shown(name) + "\" contains itself");
     if (!is_affine(state_.start))
         context_.fail(where, "the transform of an instance must not be a projection");
     note_motion(where);
@@ -117,10 +117,22 @@ void PbrtReader::run_file(Tokenizer& tokens, SourceLocation where, char const* w
     std::error_code ignored;
     auto canonical = std::filesystem::weakly_canonical(path, ignored);
     if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
-        context_.fail(where, std::string(what) + " \"" + name + "\": the file includes itself");
+        context_.fail(where, std::string(what) + " \"" + shown(name) + "\": the file includes itself");
     if (open_files_.size() >= kMaxIncludes)
-        context_.fail(where, std::string(what) + " \"" + name + "\": files are nested more than 32 deep");
+        context_.fail(where,
+                      std::string(what) + " \"" + shown(name) + "\": files are nested more than 32 deep");
+    auto const limit = [&](char const* message) {
+        throw Error(ErrorKind::Limit,
+                    context_.scene.locate(where) + ": " + what + " \"" + shown(name) + "\": " + message);
+    };
+    if (++included_files_ > kMaxIncludedFiles)
+        limit("more than 10000 files in all; include each part once and instance it with ObjectInstance");
     auto const text = context_.read_named(where, what, path);
+    included_bytes_ += text.size();
+    if (included_bytes_ > kMaxIncludedBytes)
+        limit(
+            "more than 4 GiB of included files in all; keep meshes in PLY files, and repeat with "
+            "ObjectInstance");
     auto const file = context_.add_file(path.string(), path.parent_path());
     open_files_.push_back(std::move(canonical));
     Tokenizer inner(context_.scene, file, text);

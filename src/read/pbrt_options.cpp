@@ -23,6 +23,9 @@ void PbrtReader::film(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Film");
     auto p = params(tokens, "Film", type, where);
     context_.scene.settings.film = make_film(type, p);
+    if (state_.color_space != FileColorSpace::Srgb)
+        context_.note(where,
+                      "the ColorSpace at Film would be that of pbrt's picture: here pictures are in sRGB");
     p.note_unused();
 }
 
@@ -30,6 +33,7 @@ void PbrtReader::pixel_filter(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "PixelFilter");
     auto p = params(tokens, "PixelFilter", type, where);
     context_.scene.settings.filter = make_filter(type, p);
+    context_.scene.settings.filter_where = where;
     p.note_unused();
 }
 
@@ -39,6 +43,7 @@ void PbrtReader::sampler(Tokenizer& tokens, SourceLocation where) {
     auto const made = make_sampler(type, p);
     context_.scene.settings.sampler = made.sampler;
     context_.scene.settings.spp = made.spp;
+    context_.scene.settings.sampler_where = where;
     sampler_seed_ = made.seed;
     p.note_unused();
 }
@@ -47,6 +52,7 @@ void PbrtReader::integrator(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Integrator");
     auto p = params(tokens, "Integrator", type, where);
     context_.scene.settings.integrator = make_integrator(type, p);
+    context_.scene.settings.integrator_where = where;
     p.note_unused();
 }
 
@@ -60,7 +66,7 @@ void PbrtReader::color_space(Tokenizer& tokens, SourceLocation where) {
     auto const name = type_of(tokens, "ColorSpace");
     auto const space = file_color_space(name);
     if (!space)
-        context_.fail(where, "unknown color space \"" + name + "\"" +
+        context_.fail(where, "unknown color space \"" + shown(name) + "\"" +
                                  did_you_mean(name, {"srgb", "dci-p3", "rec2020", "aces2065-1"}) +
                                  "; use srgb, dci-p3, rec2020 or aces2065-1");
     state_.color_space = *space;
@@ -79,17 +85,18 @@ void PbrtReader::option(Tokenizer& tokens, SourceLocation where) {
     bool const bracketed = token && token->kind == Token::Kind::Open;
     if (bracketed) token = tokens.next();
     if (!token || token->kind == Token::Kind::Open || token->kind == Token::Kind::Close)
-        context_.fail(where, "Option \"" + declared + "\" has no value");
+        context_.fail(where, "Option \"" + shown(declared) + "\" has no value");
     std::string const value =
         token->kind == Token::Kind::String ? tokens.decode(*token) : std::string(token->text);
     if (bracketed) {
         auto const close = tokens.next();
         if (!close || close->kind != Token::Kind::Close)
-            context_.fail(where, "Option \"" + declared + "\" must have one value");
+            context_.fail(where, "Option \"" + shown(declared) + "\" must have one value");
     }
 
     auto const fail = [&](char const* wanted) {
-        context_.fail(where, "Option \"" + declared + "\": \"" + value.substr(0, 40) + "\" is not " + wanted);
+        context_.fail(where,
+                      "Option \"" + shown(declared) + "\": \"" + shown(value, 40) + "\" is not " + wanted);
     };
     auto& settings = context_.scene.settings;
     if (name == "seed") {
@@ -115,7 +122,7 @@ void PbrtReader::option(Tokenizer& tokens, SourceLocation where) {
                                                     "color"};
         bool const known = std::find(kPbrt.begin(), kPbrt.end(), name) != kPbrt.end();
         context_.note(
-            where, "Option \"" + declared + "\" " +
+            where, "Option \"" + shown(declared) + "\" " +
                        (known ? "has no effect here" : "is unknown and ignored" + did_you_mean(name, kPbrt)));
     }
 }

@@ -91,7 +91,7 @@ void PbrtReader::run(Tokenizer& tokens) {
 }
 
 void PbrtReader::unknown_directive(Tokenizer& tokens, Token const& token) {
-    std::string const word(token.text.substr(0, 40));
+    auto const word = shown(token.text, 40);
     auto const where = tokens.at(token);
     if (token.kind != Token::Kind::Word)
         context_.fail(where, "\"" + word + "\" stands where a directive such as Shape should be");
@@ -105,8 +105,12 @@ void PbrtReader::unknown_directive(Tokenizer& tokens, Token const& token) {
 Params PbrtReader::params(Tokenizer& tokens, char const* directive, std::string const& type,
                           SourceLocation where, SharedParams inherited) {
     auto own = parse_params(tokens, context_, state_.color_space);
-    return {context_, std::string(directive) + " \"" + type + "\"", where, std::move(own),
-            std::move(inherited)};
+    return {context_,
+            std::string(directive) + " \"" + shown(type) + "\"",
+            where,
+            std::move(own),
+            std::move(inherited),
+            state_.color_space};
 }
 
 Scene PbrtReader::read(std::string_view text, std::string shown, std::filesystem::path const& folder,
@@ -132,6 +136,7 @@ Scene PbrtReader::finish() {
     }
     materials_.finish();
     finish_objects();
+    finish_media();
     textures_.check_unused();
     if (sampler_seed_) context_.scene.settings.seed = static_cast<std::uint64_t>(*sampler_seed_);
     context_.finish_notes();

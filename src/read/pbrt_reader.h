@@ -7,6 +7,7 @@
 #include "options.h"
 #include "param_parser.h"
 #include "shapes.h"
+#include "shown.h"
 #include "textures.h"
 #include "tokenizer.h"
 
@@ -118,6 +119,7 @@ class PbrtReader {
     void reverse_orientation(Tokenizer&, SourceLocation);
     bool read_alpha(Params& p, Object& object);
     void finish_objects();
+    void finish_media();
 
     /// The directive's name in quotes, and its parameters, which stay valid as long as it runs.
     std::string type_of(Tokenizer& tokens, char const* directive) {
@@ -142,7 +144,9 @@ class PbrtReader {
     std::map<std::string, ObjectName, std::less<>> objects_;
     std::vector<PendingAlpha> alphas_;
     std::vector<std::filesystem::path> open_files_;
+    std::size_t included_files_ = 0, included_bytes_ = 0;
     std::set<std::string, std::less<>> media_;
+    std::map<std::string, SourceLocation, std::less<>> media_used_;  // and where first
     std::optional<int> sampler_seed_;
 };
 

@@ -84,7 +84,8 @@ void PbrtReader::coord_sys_transform(Tokenizer& tokens, SourceLocation where) {
     if (it == coordinate_systems_.end()) {
         std::vector<std::string> names;
         for (auto const& [n, m] : coordinate_systems_) names.push_back(n);
-        context_.fail(where, "no coordinate system \"" + name + "\" is defined" + did_you_mean(name, names));
+        return context_.note(where, "no coordinate system \"" + shown(name) + "\" is defined" +
+                                        did_you_mean(name, names) + ": the transform stays as it is");
     }
     state_.start = it->second.first, state_.end = it->second.second;
 }

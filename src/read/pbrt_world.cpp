@@ -1,9 +1,22 @@
 // The directives after WorldBegin that put something into the scene.
 #include "pbrt_reader.h"
 
+#include "scene/match.h"
+
 #include <utility>
 
 namespace nephroid {
+
+namespace {
+/// More than one primitive.
+bool is_many(Shape const& shape) {
+    return match(
+        shape, [](TriangleMesh const& m) { return m.triangles.size() > 1; },
+        [](BilinearMesh const& m) { return m.patches.size() > 1; },
+        [](LoopSubdivision const& m) { return m.triangles.size() > 1 || m.levels > 0; },
+        [](auto const&) { return false; });
+}
+}  // namespace
 
 void PbrtReader::shape(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Shape");
@@ -19,6 +32,10 @@ void PbrtReader::shape(Tokenizer& tokens, SourceLocation where) {
     object.to_group = state_.start;
     note_motion(where);
     object.material = state_.material.valid() ? state_.material : materials_.standard();
+    materials_.use(object.material);
+    if (object.light && object.light->power >= 0 && is_many(object.shape))
+        context_.note(where,
+                      "the light's \"power\" is that of the whole mesh (pbrt gives it to each of its faces)");
     object.reverse_orientation = state_.reverse_orientation;
     if (object.light && group_ != GroupId{0})
         context_.note(where,
@@ -90,8 +107,34 @@ void PbrtReader::texture(Tokenizer& tokens, SourceLocation where) {
 
 void PbrtReader::make_named_medium(Tokenizer& tokens, SourceLocation where) {
     auto const name = type_of(tokens, "MakeNamedMedium");
-    parse_params(tokens, context_, state_.color_space);
-    if (!media_.insert(name).second) context_.fail(where, "medium \"" + name + "\" is already defined");
+    auto p = params(tokens, "MakeNamedMedium", name, where, inherited(AttributeTarget::ForMedium));
+    if (p.string("type", "").empty()) p.fail("needs a \"string type\"");
+    // Those of all the kinds that pbrt-v4 has.
+    for (char const* known : {"preset",
+                              "sigma_a",
+                              "sigma_s",
+                              "scale",
+                              "g",
+                              "Le",
+                              "Lescale",
+                              "LeScale",
+                              "density",
+                              "temperature",
+                              "temperatureoffset",
+                              "temperaturecutoff",
+                              "temperaturescale",
+                              "nx",
+                              "ny",
+                              "nz",
+                              "p0",
+                              "p1",
+                              "wispiness",
+                              "frequency",
+                              "filename"})
+        p.find(known);
+    p.note_unused();
+    if (!media_.insert(name).second)
+        context_.fail(where, "medium \"" + shown(name) + "\" is already defined");
     context_.note(where, "participating media are not rendered yet: empty space stands in");
 }
 
@@ -104,12 +147,22 @@ void PbrtReader::medium_interface(Tokenizer& tokens, SourceLocation where) {
         else
             tokens.unget(*token);
     }
+    for (auto const& name : {inside, outside})
+        if (!name.empty()) media_used_.try_emplace(name, where);
     if (!inside.empty() || !outside.empty())
         context_.note(where, "participating media are not rendered yet: empty space stands in");
 }
 
 void PbrtReader::reverse_orientation(Tokenizer& /*tokens*/, SourceLocation /*where*/) {
     state_.reverse_orientation = !state_.reverse_orientation;
+}
+
+/// An unknown name changes nothing as long as media are not rendered, but is a slip all the same.
+void PbrtReader::finish_media() {
+    for (auto const& [name, where] : media_used_)
+        if (!media_.contains(name))
+            context_.note(where, "no medium \"" + shown(name) + "\" is defined" +
+                                     did_you_mean(name, {media_.begin(), media_.end()}));
 }
 
 void PbrtReader::finish_objects() {
@@ -120,7 +173,7 @@ void PbrtReader::finish_objects() {
     for (auto const& [name, object] : objects_)
         if (!object.defined)
             context_.fail(object.first_use,
-                          "no object \"" + name + "\" is defined" + did_you_mean(name, defined));
+                          "no object \"" + shown(name) + "\" is defined" + did_you_mean(name, defined));
     for (auto const& [group, index, param] : alphas_)
         scene.groups[group.value].objects[index].alpha = textures_.named_float(param);
     // Only now is it known which materials are interfaces.

@@ -1,6 +1,9 @@
 // The body of a PLY file.
 #include "mesh_file.h"
 #include "ply_source.h"
+#include "shown.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +13,8 @@
 namespace nephroid {
 
 namespace {
+
+using DVec3 = glm::vec<3, double>;
 
 /// Where the properties that a mesh has are among those of the vertex element; -1: nowhere.
 struct VertexLayout {
@@ -68,7 +73,12 @@ class BodyReader {
         if (!has_vertices) throw Error(ErrorKind::Input, name_ + ": no \"vertex\" element: not a mesh");
         if (mesh_.triangles.empty()) throw Error(ErrorKind::Input, name_ + ": no faces: not a mesh");
         check_indices();
+        auto const bent = bent_quads();
         MeshFile file{std::move(mesh_), {}};
+        if (bent > 0)
+            file.notes.push_back(
+                name_ + ": " + std::to_string(bent) +
+                " quads are not flat: two triangles stand in for each (pbrt: a bilinear patch)");
         if (small_faces_ > 0)
             file.notes.push_back(name_ + ": " + std::to_string(small_faces_) +
                                  " faces of fewer than three vertices were left out");
@@ -119,7 +129,7 @@ class BodyReader {
                 }
                 v[slots[k]] = static_cast<float>(source_.read(p.type));
                 if (!std::isfinite(v[slots[k]]))
-                    source_.fail("property \"" + p.name + "\" is not a finite number");
+                    source_.fail("property \"" + shown(p.name) + "\" is not a finite number");
             }
             mesh_.p.emplace_back(v[0], v[1], v[2]);
             if (normals) mesh_.n.emplace_back(v[3], v[4], v[5]);
@@ -152,6 +162,7 @@ class BodyReader {
             ++small_faces_;
             return source_.skip(p.type, n);
         }
+        if (n == 4) quads_.push_back(mesh_.triangles.size());
         int const first = index(p.type);
         int previous = index(p.type);
         for (std::uint64_t i = 2; i < n; ++i) {
@@ -159,6 +170,21 @@ class BodyReader {
             mesh_.triangles.emplace_back(first, previous, next);
             previous = next;
         }
+    }
+
+    /// How many quads have a corner that lies off the plane of the others, by more than the rounding of their numbers.
+    [[nodiscard]] std::size_t bent_quads() const {
+        auto const bent = [&](std::size_t triangle) {
+            auto const& p = mesh_.p;
+            auto const t = mesh_.triangles[triangle];
+            DVec3 const a(p[static_cast<std::size_t>(t.x)]);
+            DVec3 const ab = DVec3(p[static_cast<std::size_t>(t.y)]) - a;
+            DVec3 const ac = DVec3(p[static_cast<std::size_t>(t.z)]) - a;
+            DVec3 const ad = DVec3(p[static_cast<std::size_t>(mesh_.triangles[triangle + 1].z)]) - a;
+            double const size = std::max({glm::length(ab), glm::length(ac), glm::length(ad)});
+            return std::abs(glm::dot(glm::cross(ab, ac), ad)) > 1e-3 * size * size * size;
+        };
+        return static_cast<std::size_t>(std::count_if(quads_.begin(), quads_.end(), bent));
     }
 
     int index(PlyType type) {
@@ -184,6 +210,7 @@ class BodyReader {
     std::string const& name_;
     TriangleMesh mesh_;
     std::uint64_t small_faces_ = 0;
+    std::vector<std::size_t> quads_;  // the first triangle of each
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "ply_header.h"
 
 #include "number.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,7 @@ class HeaderParser {
     }
 
   private:
-    static std::string quote(std::string_view s) { return std::string(s.substr(0, 40)); }
+    static std::string quote(std::string_view s) { return shown(s, 40); }
     [[noreturn]] void fail(std::string const& message) const { fail_at(line_, message); }
     [[noreturn]] void fail_at(std::uint32_t line, std::string const& message) const {
         throw Error(ErrorKind::Input, name_ + ":" + std::to_string(line) + ": " + message);

@@ -3,6 +3,7 @@
 
 #include "number.h"
 #include "ply_header.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <array>
@@ -26,11 +27,11 @@ class AsciiSource {
         auto const w = word();
         if (is_integer(type)) {
             auto const v = parse_int(w);
-            if (!v) fail("\"" + std::string(w.substr(0, 40)) + "\" is not an integer");
+            if (!v) fail("\"" + shown(w, 40) + "\" is not an integer");
             return static_cast<double>(*v);
         }
         auto const v = parse_double(w);
-        if (!v) fail("\"" + std::string(w.substr(0, 40)) + "\" is not a finite number");
+        if (!v) fail("\"" + shown(w, 40) + "\" is not a finite number");
         return *v;
     }
     void skip(PlyType /*type*/, std::uint64_t count) {

@@ -1,4 +1,5 @@
 #include "options.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ SamplerOptions make_sampler(std::string const& type, Params& p) {
         if (type == "halton" || type == "pmj02bn")
             p.note("info: padded Sobol' points of the same count stand in");
     } else if (type == "random" || type == "02sequence" || type == "lowdiscrepancy" || type == "maxmindist") {
-        p.fail("\"" + type + "\" is of pbrt-v3; in pbrt-v4 write \"" +
+        p.fail("\"" + shown(type) + "\" is of pbrt-v3; in pbrt-v4 write \"" +
                (type == "random"       ? "independent"
                 : type == "maxmindist" ? "pmj02bn"
                                        : "paddedsobol") +

@@ -17,7 +17,8 @@ float phi_max(Params& p) {
 Sphere sphere(Params& p) {
     Sphere s;
     s.radius = p.number("radius", 1);
-    if (!(s.radius > 0)) p.fail("\"radius\" must be above 0");
+    // Of radius 0 nothing is to be seen; drop_degenerate() leaves it out with a note.
+    if (!(s.radius >= 0)) p.fail("\"radius\" must not be negative");
     float const z0 = p.number("zmin", -s.radius), z1 = p.number("zmax", s.radius);
     s.z_min = clamp(std::min(z0, z1), -s.radius, s.radius);
     s.z_max = clamp(std::max(z0, z1), -s.radius, s.radius);

@@ -1,6 +1,7 @@
 #include "spectra.h"
 
 #include "number.h"
+#include "shown.h"
 
 #include "spectrum/named.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 Spd rgb_spd(Context& context, Param const& p, SpectrumRole role) {
     Vec3 const given{p.floats[0], p.floats[1], p.floats[2]};
-    auto const declared_as = "parameter \"rgb " + p.name + "\"";
+    auto const declared_as = "parameter \"rgb " + shown(p.name) + "\"";
     if (role != SpectrumRole::Albedo && (given.x < 0 || given.y < 0 || given.z < 0))
         context.fail(p.where, declared_as + " has a negative component");
     Vec3 const linear = to_srgb(given, p.color_space);
@@ -35,16 +36,16 @@ Spd rgb_spd(Context& context, Param const& p, SpectrumRole role) {
         case SpectrumRole::Illuminant:
             break;
     }
-    return RgbIlluminantSpd{rgb};
+    return RgbIlluminantSpd{rgb, white_of(p.color_space)};
 }
 
 Spd pairs_spd(Context& context, Param const& p) {
     TabulatedSpd t;
     for (std::size_t i = 0; i + 1 < p.floats.size(); i += 2) {
         if (i > 0 && p.floats[i] <= t.lambda.back())
-            context.fail(p.where, "parameter \"spectrum " + p.name + "\": wavelengths must increase, but " +
-                                      std::to_string(p.floats[i]) + " follows " +
-                                      std::to_string(t.lambda.back()));
+            context.fail(p.where, "parameter \"spectrum " + shown(p.name) +
+                                      "\": wavelengths must increase, but " + std::to_string(p.floats[i]) +
+                                      " follows " + std::to_string(t.lambda.back()));
         t.lambda.push_back(p.floats[i]);
         t.value.push_back(p.floats[i + 1]);
     }
@@ -56,7 +57,7 @@ Spd pairs_spd(Context& context, Param const& p) {
 Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
     auto const count = [&](std::size_t n, std::size_t wanted) {
         if (n != wanted)
-            context.fail(p.where, "parameter \"" + std::string(type_name(p.type)) + " " + p.name +
+            context.fail(p.where, "parameter \"" + std::string(type_name(p.type)) + " " + shown(p.name) +
                                       "\" needs " + std::to_string(wanted) + " values, not " +
                                       std::to_string(n));
     };
@@ -67,7 +68,7 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
     if (p.type == ParamType::Blackbody) {
         count(p.floats.size(), 1);
         if (!(p.floats[0] > 0))
-            context.fail(p.where, "parameter \"blackbody " + p.name + "\" must be above 0 K");
+            context.fail(p.where, "parameter \"blackbody " + shown(p.name) + "\" must be above 0 K");
         return BlackbodySpd{p.floats[0]};
     }
     if (p.strings.empty()) return pairs_spd(context, p);
@@ -78,7 +79,7 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
         auto const names = named_spectrum_names();
-        context.fail(p.where, "parameter \"spectrum " + p.name + "\": \"" + name +
+        context.fail(p.where, "parameter \"spectrum " + shown(p.name) + "\": \"" + shown(name) +
                                   "\" is neither a named spectrum nor a file" +
                                   did_you_mean(name, {names.begin(), names.end()}));
     }
@@ -87,7 +88,8 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
 
 Spd emission(Params& params, std::string_view name) {
     auto const* p = params.find(name, {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody});
-    return p ? spd_of(params.context(), *p, SpectrumRole::Illuminant) : Spd{RgbIlluminantSpd{{1, 1, 1}}};
+    if (p) return spd_of(params.context(), *p, SpectrumRole::Illuminant);
+    return RgbIlluminantSpd{{1, 1, 1}, white_of(params.color_space())};
 }
 
 TabulatedSpd parse_spd(std::string_view text, std::string const& name) {
@@ -108,8 +110,7 @@ TabulatedSpd parse_spd(std::string_view text, std::string const& name) {
             auto const v = parse_float(word);
             if (!v)
                 fail_line(name, line_number,
-                          "\"" + std::string(word.substr(0, 40)) +
-                              "\" is not a finite number; lines are `wavelength value`");
+                          "\"" + shown(word, 40) + "\" is not a finite number; lines are `wavelength value`");
             if (expects_value) {
                 t.value.push_back(*v);
             } else {
@@ -121,7 +122,7 @@ TabulatedSpd parse_spd(std::string_view text, std::string const& name) {
         }
     }
     if (expects_value) fail_line(name, line_number, "the last wavelength has no value");
-    if (t.lambda.empty()) fail_line(name, line_number, "no samples; lines are `wavelength value`");
+    if (t.lambda.empty()) throw Error(ErrorKind::Input, name + ": no samples; lines are `wavelength value`");
     return t;
 }
 

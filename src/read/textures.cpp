@@ -1,4 +1,5 @@
 #include "textures.h"
+#include "shown.h"
 
 #include "spectra.h"
 
@@ -9,14 +10,16 @@ namespace nephroid {
 void Textures::define(std::string name, std::string const& type, std::string kind, ParamList params,
                       SharedParams inherited, Mat4 const& to_world, SourceLocation where) {
     if (type != "float" && type != "spectrum")
-        context_.fail(where, "Texture \"" + name + "\": type \"" + type +
+        context_.fail(where, "Texture \"" + shown(name) + "\": type \"" + shown(type) +
                                  "\" must be \"float\" or \"spectrum\"" +
                                  (type == "color" ? " (\"color\" is pbrt-v3's name for spectrum)" : ""));
     bool const spectrum = type == "spectrum";
     auto& names = spectrum ? spectrum_names_ : float_names_;
     if (auto const it = names.find(name); it != names.end())
-        context_.fail(where, "texture \"" + name + "\" is already defined at " +
+        context_.fail(where, "texture \"" + shown(name) + "\" is already defined at " +
                                  context_.scene.locate(it->second->where));
+    bool const picture = kind == "imagemap" || kind == "ptex";
+    Rank const rank{picture ? 0 : spectrum ? 2 : 1, definitions_.size()};
     definitions_.push_back({name,
                             std::move(kind),
                             spectrum,
@@ -24,29 +27,30 @@ void Textures::define(std::string name, std::string const& type, std::string kin
                             std::move(inherited),
                             to_world,
                             where,
-                            definitions_.size(),
+                            rank,
                             {}});
     names.emplace(std::move(name), &definitions_.back());
 }
 
 Textures::Definition& Textures::look_up(Param const& param, bool spectrum) {
     if (param.strings.size() != 1)
-        context_.fail(param.where, "parameter \"texture " + param.name + "\" needs one name");
+        context_.fail(param.where, "parameter \"texture " + shown(param.name) + "\" needs one name");
     auto const& names = spectrum ? spectrum_names_ : float_names_;
     auto const& name = param.strings[0];
-    if (auto const it = names.find(name); it != names.end() && it->second->order < visible_)
+    if (auto const it = names.find(name); it != names.end() && it->second->rank < visible_)
         return *it->second;
 
     std::string const type = spectrum ? "spectrum" : "float";
     auto const& others = spectrum ? float_names_ : spectrum_names_;
     if (others.contains(name))
-        context_.fail(param.where, "parameter \"" + param.name + "\" needs a " + type + " texture, and \"" +
-                                       name + "\" is a " + (spectrum ? "float" : "spectrum") + " texture");
+        context_.fail(param.where, "parameter \"" + shown(param.name) + "\" needs a " + type +
+                                       " texture, and \"" + shown(name) + "\" is a " +
+                                       (spectrum ? "float" : "spectrum") + " texture");
     std::vector<std::string> candidates;
     for (auto const& [n, d] : names)
-        if (d->order < visible_) candidates.push_back(n);
+        if (d->rank < visible_) candidates.push_back(n);
     context_.fail(param.where,
-                  "no " + type + " texture \"" + name + "\" is defined" +
+                  "no " + type + " texture \"" + shown(name) + "\" is defined" +
                       (names.contains(name) ? " before this one" : did_you_mean(name, candidates)));
 }
 
@@ -92,8 +96,9 @@ TextureId Textures::make(Definition& d, SpectrumRole role) {
     constexpr int kMaxDepth = 1000;  // making and evaluating a texture recurses
     if (++depth_ > kMaxDepth) context_.fail(d.where, "textures are nested more than 1000 deep");
     bool const first = !d.made[0].valid() && !d.made[1].valid() && !d.made[2].valid();
-    Params p(context_, "Texture \"" + d.name + "\" \"" + d.kind + "\"", d.where, d.params, d.inherited);
-    auto const outer = std::exchange(visible_, d.order);
+    Params p(context_, "Texture \"" + shown(d.name) + "\" \"" + shown(d.kind) + "\"", d.where, d.params,
+             d.inherited);
+    auto const outer = std::exchange(visible_, d.rank);
     auto kind = kind_of(d, p, role);
     visible_ = outer;
     --depth_;

@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace nephroid {
 
@@ -33,6 +34,8 @@ class Textures {
     void check_unused();
 
   private:
+    /// pbrt's order of making: pictures, then float textures, then spectra, each as they stand in the file.
+    using Rank = std::pair<int, std::size_t>;
     struct Definition {
         std::string name, kind;
         bool spectrum = false;
@@ -40,7 +43,7 @@ class Textures {
         SharedParams inherited;
         Mat4 to_world;
         SourceLocation where;
-        std::size_t order = 0;
+        Rank rank;
         std::array<TextureId, 3> made;  // by role; a float texture uses the first
     };
     using Names = std::map<std::string, Definition*, std::less<>>;
@@ -59,8 +62,9 @@ class Textures {
     std::deque<Definition> definitions_;  // in file order, addresses stay
     Names float_names_, spectrum_names_;
     int depth_ = 0;  // of textures being made
-    // Textures may name only what was defined before them: while one is made, later ones do not exist.
-    std::size_t visible_ = static_cast<std::size_t>(-1);
+    // Textures may name only what is made before them: while one is made, later ones do not exist.
+    static constexpr Rank kAll{3, 0};
+    Rank visible_ = kAll;
 };
 
 }  // namespace nephroid

@@ -57,6 +57,8 @@ void check_ids(Check const& c, T const& x, char const* what) {
     });
 }
 
+/// Numbers beyond single precision, in the matrix or in its inverse.
+bool overflows(Mat4 const& m);
 /// Finite, affine and invertible, in double and in float.
 void check_matrix(Check const& c, Mat4 const& m, char const* what);
 void check_spd(Check const& c, Spd const& spd, char const* what);

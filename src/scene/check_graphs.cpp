@@ -84,6 +84,27 @@ std::uint64_t add(std::uint64_t a, std::uint64_t b) {
     return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<std::uint64_t>::max() : sum;
 }
 
+/// What one look-up costs: a texture or material that names the same child twice evaluates it twice, so that a short
+/// chain of such doublings is a long computation at each hit.
+constexpr std::uint64_t kMaxEvaluations = 4096;
+
+/// The nodes below and including each one, counted as often as they are reached. `own(i)` is what node i costs by itself.
+template <class List, class Own, class ChildrenOf>
+std::vector<std::uint64_t> check_evaluations(Scene const& scene, List const& list, std::string const& kind,
+                                             std::vector<std::uint32_t> const& children_first_order, Own own,
+                                             ChildrenOf children_of) {
+    std::vector<std::uint64_t> cost(list.size(), 0);
+    for (std::uint32_t const i : children_first_order) {
+        cost[i] = own(i);
+        for (std::uint32_t const child : children_of(i)) cost[i] = add(cost[i], cost[child]);
+        if (cost[i] > kMaxEvaluations)
+            Check{scene, list[i].where}.limit(
+                "the " + kind + " takes more than " + std::to_string(kMaxEvaluations) +
+                " evaluations at each hit, because it names the same ones again and again: simplify it");
+    }
+    return cost;
+}
+
 /// How many primitives a shape becomes.
 std::uint64_t primitives(Shape const& shape) {
     return match(
@@ -102,10 +123,12 @@ void check_counts(Scene const& scene, std::vector<std::uint32_t> const& children
     };
     std::vector<Count> counts(scene.groups.size());
     std::uint64_t stored = 0;
+    SourceLocation last_object;  // the one with which there were too many primitives, or else the last of all
     for (std::uint32_t const g : children_first_order) {
         Count& sum = counts[g];
         for (Object const& object : scene.groups[g].objects) {
             std::uint64_t const n = primitives(object.shape);
+            if (stored <= kMaxCount) last_object = object.where;
             stored = add(stored, n);
             sum.appearances = add(sum.appearances, 1);
             if (object.light) sum.emitters = add(sum.emitters, n);
@@ -116,25 +139,45 @@ void check_counts(Scene const& scene, std::vector<std::uint32_t> const& children
             sum.emitters = add(sum.emitters, part.emitters);
         }
     }
-    Check const world{scene, scene.groups[0].where};
-    auto const limit = [&](std::uint64_t n, char const* what, char const* remedy) {
-        if (n > kMaxCount) world.limit(std::string("the scene has more than 2^31 ") + what + ": " + remedy);
+    // The place is that of the world's instance with which there are too many.
+    auto const culprit = [&](std::uint64_t Count::*member) {
+        SourceLocation where = last_object;
+        std::uint64_t sum = 0;
+        for (Instance const& instance : scene.groups[0].instances) {
+            if (sum <= kMaxCount) where = instance.where;
+            sum = add(sum, counts[instance.group.value].*member);
+        }
+        return where;
     };
-    limit(stored, "primitives", "simplify its meshes, or instance them");
-    limit(counts[0].appearances, "objects once its instances are multiplied out", "use fewer instances");
-    limit(counts[0].emitters, "shining primitives once its instances are multiplied out",
-          "use fewer instances of lights");
+    auto const limit = [&](std::uint64_t n, SourceLocation where, char const* what, char const* remedy) {
+        if (n > kMaxCount)
+            Check{scene, where}.limit(std::string("the scene has more than 2^31 ") + what + ": " + remedy);
+    };
+    limit(stored, last_object, "primitives", "simplify its meshes, or instance them");
+    limit(counts[0].appearances, culprit(&Count::appearances),
+          "objects once its instances are multiplied out", "use fewer instances");
+    limit(counts[0].emitters, culprit(&Count::emitters),
+          "shining primitives once its instances are multiplied out", "use fewer instances of lights");
 }
 
 }  // namespace
 
 void check_graphs(Scene const& scene) {
-    auto const textures = check_nesting(scene, scene.textures, "texture", [&](std::uint32_t i) {
-        return ids_in<TextureId>(scene.textures[i].kind);
-    });
+    auto const below_texture = [&](std::uint32_t i) { return ids_in<TextureId>(scene.textures[i].kind); };
+    auto const textures = check_nesting(scene, scene.textures, "texture", below_texture);
+    auto const costs = check_evaluations(
+        scene, scene.textures, "texture", textures, [](std::uint32_t) { return std::uint64_t{1}; },
+        below_texture);
     check_texture_types(scene, textures);
-    check_nesting(scene, scene.materials, "material",
-                  [&](std::uint32_t i) { return ids_in<MaterialId>(scene.materials[i].kind); });
+    auto const below_material = [&](std::uint32_t i) { return ids_in<MaterialId>(scene.materials[i].kind); };
+    auto const own_cost = [&](std::uint32_t i) {
+        std::uint64_t sum = 1;
+        for (std::uint32_t const t : ids_in<TextureId>(scene.materials[i].kind)) sum = add(sum, costs[t]);
+        return sum;
+    };
+    check_evaluations(scene, scene.materials, "material",
+                      check_nesting(scene, scene.materials, "material", below_material), own_cost,
+                      below_material);
     auto const order = check_nesting(scene, scene.groups, "group", [&](std::uint32_t i) {
         Children found;
         for (Instance const& instance : scene.groups[i].instances) found.push_back(instance.group.value);

@@ -34,8 +34,18 @@ void check_mapping(Check const& c, TextureMapping const& mapping) {
 
 void check_index(Check const& c, Spd const& eta) {
     check_spd(c, eta, "the index of refraction");
-    if (auto const* constant = std::get_if<ConstantSpd>(&eta))
-        c.require(constant->value > 0, "the index of refraction must be above 0");
+    auto const above_0 = [&](bool good) {
+        c.require(good, "the index of refraction must be above 0 at every wavelength (glass: 1.5)");
+    };
+    auto const rgb_above_0 = [&](auto const& s) { above_0(s.rgb.x > 0 && s.rgb.y > 0 && s.rgb.z > 0); };
+    match(
+        eta, [&](ConstantSpd const& s) { above_0(s.value > 0); },
+        [&](TabulatedSpd const& s) {
+            for (float const value : s.value) above_0(value > 0);
+        },
+        [&](RgbAlbedoSpd const& s) { rgb_above_0(s); }, [&](RgbUnboundedSpd const& s) { rgb_above_0(s); },
+        [&](RgbIlluminantSpd const& s) { rgb_above_0(s); }, [](BlackbodySpd const&) {},
+        [](NamedSpd const&) {});
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include "check.h"
 #include "scene/match.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nephroid {
 
 namespace {
@@ -14,13 +17,22 @@ void check_lens(Check const& c, float radius, float distance) {
     c.require(distance > 0, "the focal distance must be above 0");
 }
 
+/// Filters are tabulated at 64 cells a pixel: what is finer than that, or wider than any picture needs, would become a
+/// table of zeros, or one that does not fit into memory.
 void check_filter(Check const& c, Filter const& filter) {
     check_finite(c, filter, "the pixel filter");
     match(filter, [&](auto const& f) {
-        c.require(f.radius.x > 0 && f.radius.y > 0, "the pixel filter's radii must be above 0");
+        c.require(std::min(f.radius.x, f.radius.y) >= 0.001f && std::max(f.radius.x, f.radius.y) <= 64,
+                  "the pixel filter's radii must be above 0 (from 0.001 to 64 pixels)");
         if constexpr (requires { f.sigma; })
-            c.require(f.sigma > 0, "the gaussian filter's sigma must be above 0");
-        if constexpr (requires { f.tau; }) c.require(f.tau > 0, "the sinc filter's tau must be above 0");
+            c.require(
+                f.sigma >= 0.001f && f.sigma <= 100 * std::min(f.radius.x, f.radius.y),
+                "the gaussian filter's sigma must be above 0 (from 0.001 pixels to 100 times its radius)");
+        if constexpr (requires { f.tau; })
+            c.require(f.tau >= 0.01f, "the sinc filter's tau must be above 0 (at least 0.01)");
+        if constexpr (requires { f.b; })
+            c.require(std::abs(f.b) <= 10 && std::abs(f.c) <= 10,
+                      "the mitchell filter's B and C must be from -10 to 10 (1/3 each is usual)");
     });
 }
 
@@ -73,17 +85,18 @@ void check_camera(Check const& c, Camera const& camera) {
 }
 
 void check_settings(Check const& c, Settings const& settings) {
-    check_filter(c, settings.filter);
-    check_sampler(c, settings.sampler);
-    check_film(c, settings.film);
-    c.require(settings.spp >= 1, "there must be at least 1 sample a pixel");
+    check_filter(c.at(settings.filter_where), settings.filter);
+    check_sampler(c.at(settings.sampler_where), settings.sampler);
+    check_film(c.at(settings.film.where), settings.film);
+    c.at(settings.sampler_where).require(settings.spp >= 1, "there must be at least 1 sample a pixel");
+    Check const here = c.at(settings.integrator_where);
     match(settings.integrator, [&](auto const& integrator) {
-        check_finite(c, integrator, "the integrator");
+        check_finite(here, integrator, "the integrator");
         if constexpr (requires { integrator.max_depth; })
-            c.require(integrator.max_depth >= 0, "the integrator's maxdepth must not be negative");
+            here.require(integrator.max_depth >= 0, "the integrator's maxdepth must not be negative");
         if constexpr (requires { integrator.roulette; })
-            c.require(integrator.roulette.alpha > 0 && integrator.roulette.alpha <= 1,
-                      "the probability of Russian roulette must be above 0 and at most 1");
+            here.require(integrator.roulette.alpha > 0 && integrator.roulette.alpha <= 1,
+                         "the probability of Russian roulette must be above 0 and at most 1");
     });
 }
 

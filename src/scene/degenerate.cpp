@@ -2,17 +2,21 @@
 #include "scene/match.h"
 #include "scene/scene.h"
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace nephroid {
 
 namespace {
 
-/// Finite, affine, and nevertheless without an inverse. Other faults are for validate() to report.
+constexpr double kFloatMax = static_cast<double>(std::numeric_limits<float>::max());
+
+/// Within float's range, affine, and nevertheless without an inverse. Other faults are for validate() to report.
 bool is_flat(Mat4 const& m) {
     for (auto const& row : m.m)
         for (double const x : row)
-            if (!std::isfinite(x)) return false;
+            if (!(std::abs(x) <= kFloatMax)) return false;
     return is_affine(m) && !make_transform(m) && std::isfinite(determinant3(m));
 }
 

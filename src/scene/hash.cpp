@@ -71,10 +71,11 @@ void put(Digest& d, std::string const& text) {
 void put(Digest& d, ImageFile const& image) {
     auto const& [path, encoding, where] = image;
     put(d, encoding);
-    // A device or a FIFO must not be waited for.
+    // A device or a FIFO must not be waited for, nor what calls itself a regular file of no bytes (/proc/kmsg).
     std::error_code error;
     std::ifstream file;
-    if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary);
+    if (std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0)
+        file.open(path, std::ios::binary);
     d.word(file.is_open());
     if (!file.is_open()) return put(d, path);
     std::vector<char> buffer(1 << 20);
@@ -124,7 +125,8 @@ void put(Digest& d, T const& x) {
 
 std::string hash(Scene const& scene) {
     // A new field of Scene does not compile here until it is decided whether it shapes the picture.
-    auto const& [files, notes, camera, settings, images, textures, materials, lights, groups] = scene;
+    auto const& [files, notes, camera, settings, images, textures, materials, lights, groups, image_ids] =
+        scene;
     Digest d;
     put(d, camera);
     put(d, images);

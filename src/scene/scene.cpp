@@ -1,19 +1,15 @@
 #include "scene/scene.h"
 
-#include <algorithm>
-
 namespace nephroid {
 
 ImageId Scene::add(ImageFile const& image) {
-    // Linear search: scenes name hundreds of pictures, not millions, and a map beside the list would have to be kept in
-    // step with a public member.
-    auto const same = [&](ImageFile const& other) {
-        return other.path == image.path && other.encoding == image.encoding;
-    };
-    auto const found = std::find_if(images.begin(), images.end(), same);
-    if (found != images.end()) return ImageId{static_cast<std::uint32_t>(found - images.begin())};
+    auto& id = image_ids[{image.path, image.encoding}];
+    // The list may have been shortened since, and others put in the place.
+    bool const known = id.value < images.size() && images[id.value].path == image.path &&
+                       images[id.value].encoding == image.encoding;
+    if (known) return id;
     images.push_back(image);
-    return ImageId{last(images)};
+    return id = ImageId{last(images)};
 }
 
 std::string Scene::locate(SourceLocation where) const {

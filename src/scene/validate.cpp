@@ -1,14 +1,31 @@
 #include "check.h"
 
+#include <limits>
+
 namespace nephroid {
+
+bool overflows(Mat4 const& m) {
+    auto const beyond = [](Mat4 const& a) {
+        for (auto const& row : a.m)
+            for (double const x : row)
+                if (!(std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max()))) return true;
+        return false;
+    };
+    if (beyond(m)) return true;
+    auto const inverted = inverse(m);
+    return inverted && beyond(*inverted);
+}
 
 void check_matrix(Check const& c, Mat4 const& m, char const* what) {
     check_finite(c, m, what);
     if (!is_affine(m))
         c.scene.fail(c.where, std::string(what) + " is projective: its last row must be 0 0 0 1");
-    if (!make_transform(m))
-        c.scene.fail(c.where,
-                     std::string(what) + " cannot be inverted: remove the scale by 0 or the overflow");
+    if (make_transform(m)) return;
+    if (overflows(m))
+        c.scene.fail(c.where, std::string(what) +
+                                  " overflows: its numbers, or those of its inverse, are beyond "
+                                  "single precision: scale by less");
+    c.scene.fail(c.where, std::string(what) + " cannot be inverted: remove the scale by 0");
 }
 
 namespace {

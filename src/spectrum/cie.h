@@ -14,5 +14,7 @@ struct Observer {
 extern Observer const kCie1931;
 inline Observer const& cie_1931() { return kCie1931; }
 Dense const& illuminant_d65();
+/// The light of a colour space's white.
+Dense const& illuminant(RgbWhite white);
 
 }  // namespace nephroid

@@ -6,7 +6,7 @@ namespace nephroid {
 namespace {
 
 Dense values(Spd const& spd) {
-    if (std::holds_alternative<RgbIlluminantSpd>(spd)) return illuminant_d65();
+    if (auto const* s = std::get_if<RgbIlluminantSpd>(&spd)) return illuminant(s->white);
     if (!std::holds_alternative<RgbAlbedoSpd>(spd) && !std::holds_alternative<RgbUnboundedSpd>(spd))
         return dense_values(spd);
     SpectrumStore store;

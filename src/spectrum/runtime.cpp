@@ -121,10 +121,11 @@ RuntimeSpectrum SpectrumStore::compile(Spd const& spd, SpectrumRole role) {
     if (auto const* s = std::get_if<RgbIlluminantSpd>(&spd)) {
         scaled_sigmoid(s->rgb);
         r.kind_ = Kind::SigmoidTimesDense;
-        static DenseTable const d65 = sampled(illuminant_d65());
-        r.table_ = keep(d65);
-        static float const white = static_cast<float>(photometric(RgbIlluminantSpd{{1, 1, 1}}));
-        r.rgb_ = s->rgb * white;
+        DenseTable const white = sampled(illuminant(s->white));
+        r.table_ = keep(white);
+        // White light of D65 is (1, 1, 1) by definition, so its integral alone counts.
+        static float const d65 = static_cast<float>(photometric(RgbIlluminantSpd{{1, 1, 1}}));
+        r.rgb_ = s->rgb * (s->white == RgbWhite::D65 ? Vec3{d65} : rgb_in_role(white, role));
         return r;
     }
     r.kind_ = Kind::Dense;

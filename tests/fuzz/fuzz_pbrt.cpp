@@ -1,16 +1,10 @@
-// libFuzzer entry: any bytes either read as a scene that validate() takes or throw Error; never anything else.
-//   clang++ -std=c++20 -fsanitize=fuzzer,address,undefined … tests/fuzz/fuzz_pbrt.cpp
+// Any bytes are a scene that validate() takes, or throw Error.
+#include "fuzz.h"
+
 #include "read/read.h"
 
-#include <cstddef>
-#include <cstdint>
-
-extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
-    try {
-        std::string_view const text(reinterpret_cast<char const*>(data), size);
-        nephroid::validate(nephroid::read_pbrt_string(text, "fuzz.pbrt", "/nonexistent"));
-    } catch (nephroid::Error const&) {
-        // What bad input is for.
-    }
-    return 0;
+void nephroid::fuzz(std::string_view bytes) {
+    Scene scene = read_pbrt_string(bytes, "fuzz.pbrt", "/nonexistent");
+    drop_degenerate(scene);
+    validate(scene);
 }

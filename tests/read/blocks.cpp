@@ -34,7 +34,10 @@ TEST_CASE("attribute blocks save the graphics state") {
 }
 
 TEST_CASE("unbalanced blocks") {
-    CHECK(error_in_world("AttributeEnd") == "t.pbrt:2: AttributeEnd without its Begin");
+    // pbrt goes on, too.
+    auto const scene = read_world("AttributeEnd Shape \"sphere\"");
+    CHECK(scene.world().objects.size() == 1);
+    CHECK(notes(scene) == "t.pbrt:2: AttributeEnd without its Begin is ignored\n");
     CHECK(error_in_world("\nAttributeBegin\n") == "t.pbrt:3: AttributeBegin without an AttributeEnd");
     CHECK(error_in_world("ObjectBegin \"a\"") == "t.pbrt:2: ObjectBegin without an ObjectEnd");
     CHECK(error_in_world("ObjectEnd") == "t.pbrt:2: ObjectEnd without its Begin");
@@ -146,6 +149,21 @@ TEST_CASE("media are noted") {
     CHECK(contains(notes(scene), "t.pbrt:1: participating media"));
     CHECK(contains(notes(scene), "t.pbrt:3: participating media"));
     CHECK(scene.notes.size() == 2);
-    CHECK(contains(error_in("MakeNamedMedium \"a\"\nMakeNamedMedium \"a\""),
-                   "t.pbrt:2: medium \"a\" is already defined"));
+    CHECK(contains(
+        error_in("MakeNamedMedium \"a\" \"string type\" \"homogeneous\"\nMakeNamedMedium \"a\" \"string "
+                 "type\" \"homogeneous\""),
+        "t.pbrt:2: medium \"a\" is already defined"));
+    CHECK(contains(error_in("MakeNamedMedium \"a\""),
+                   "t.pbrt:1: MakeNamedMedium \"a\": needs a \"string type\""));
+    CHECK(contains(
+        notes(read("MakeNamedMedium \"a\" \"string type\" \"cloud\"\n\"float densty\" 2 WorldBegin")),
+        "t.pbrt:2: MakeNamedMedium \"a\": parameter \"densty\" is unknown and ignored (did you mean "
+        "\"density\"?)"));
+    CHECK(contains(
+        notes(read("MakeNamedMedium \"fog\" \"string type\" \"cloud\" WorldBegin\nMediumInterface \"fig\" "
+                   "\"fog\"")),
+        "t.pbrt:2: no medium \"fig\" is defined (did you mean \"fog\"?)"));
+    // What Attribute sets for media is theirs: here their type.
+    CHECK(error_in("Attribute \"medium\" \"string type\" \"homogeneous\" MakeNamedMedium \"a\" WorldBegin") ==
+          "no error");
 }

@@ -50,11 +50,86 @@ TEST_CASE("Import gives nothing of its state back") {
     folder.write("close.pbrt", "\nAttributeEnd");
     CHECK(contains(error_of([&] { read_scene(folder.write("m2.pbrt", "WorldBegin Import \"open.pbrt\"")); }),
                    "open.pbrt:2: this block is not closed"));
-    CHECK(contains(error_of([&] {
-                       read_scene(folder.write(
-                           "m3.pbrt", "WorldBegin AttributeBegin Import \"close.pbrt\" AttributeEnd"));
-                   }),
+    // It closes no block of the file that imports it.
+    CHECK(contains(notes(read_scene(folder.write(
+                       "m3.pbrt", "WorldBegin AttributeBegin Import \"close.pbrt\" AttributeEnd"))),
                    "close.pbrt:2: AttributeEnd without its Begin"));
+}
+
+TEST_CASE("the first file's folder comes before that of the file which names another") {
+    Folder const folder;
+    folder.write("s.pbrt", "Shape \"sphere\"");
+    folder.write("a/s.pbrt", "Shape \"disk\"");
+    folder.write("a/only.pbrt", "Shape \"disk\"");
+    folder.write("a/more.pbrt", "Include \"s.pbrt\" Include \"only.pbrt\"");
+    auto const scene = read_scene(folder.write("main.pbrt", "WorldBegin Include \"a/more.pbrt\""));
+    shape_of<Sphere>(scene, 0);
+    shape_of<Disk>(scene, 1);
+}
+
+namespace {
+/// The kind of error that reading throws; its message is in `message`.
+std::optional<ErrorKind> kind_of_error(std::filesystem::path const& path, std::string& message) {
+    try {
+        read_scene(path);
+    } catch (Error const& e) {
+        message = e.what();
+        return e.kind();
+    }
+    return std::nullopt;
+}
+}  // namespace
+
+TEST_CASE("files that include files that include files") {
+    Folder const folder;
+    std::string ten;
+    for (int i = 0; i < 10; ++i) ten += "Include \"NEXT\"\n";
+    for (int level = 0; level < 20; ++level) {
+        auto text = ten;
+        auto const next = "f" + std::to_string(level + 1) + ".pbrt";
+        for (std::size_t at; (at = text.find("NEXT")) != std::string::npos;) text.replace(at, 4, next);
+        folder.write("f" + std::to_string(level) + ".pbrt", text);
+    }
+    folder.write("f20.pbrt", "");
+    std::string message;
+    CHECK(kind_of_error(folder.write("main.pbrt", "\nInclude \"f0.pbrt\""), message) == ErrorKind::Limit);
+    CAPTURE(message);
+    CHECK(contains(message, ".pbrt:"));
+    CHECK(contains(message, "more than 10000 files in all"));
+}
+
+TEST_CASE("gigabytes of included text") {
+    if (!std::getenv("NEPHROID_FULL")) return;
+    Folder const folder;
+    folder.write("big.pbrt", std::string(std::size_t{256} << 20, ' '));
+    std::string text;
+    for (int i = 0; i < 17; ++i) text += "Include \"big.pbrt\"\n";
+    std::string message;
+    CHECK(kind_of_error(folder.write("main.pbrt", text), message) == ErrorKind::Limit);
+    CHECK(contains(message, "main.pbrt:17: Include \"big.pbrt\": more than 4 GiB"));
+}
+
+TEST_CASE("files of the system are not read") {
+    if (!std::filesystem::exists("/proc/self/status")) return;
+    for (char const* path : {"/proc/self/status", "/proc/kmsg", "/sys/kernel/notes", "/dev/null"}) {
+        CAPTURE(path);
+        if (!std::filesystem::exists(path)) continue;
+        auto const message = error_in("\nInclude \"" + std::string(path) + "\"");
+        CAPTURE(message);
+        CHECK(contains(message, "t.pbrt:2: Include \"" + std::string(path) + "\" "));
+    }
+    CHECK(contains(error_in("Include \"/proc/self/status\""), "is not a regular file"));
+}
+
+TEST_CASE("a mesh whose name says nothing is told by its first word") {
+    Folder const folder;
+    folder.write("mesh.bin", kPly);
+    write_gz(folder.path() / "packed", kPly);
+    auto const scene = read_scene(folder.write(
+        "main.pbrt",
+        "WorldBegin Shape \"plymesh\" \"string filename\" \"mesh.bin\" Shape \"plymesh\" \"string filename\" "
+        "\"packed\""));
+    CHECK(shape_of<TriangleMesh>(scene, 1).triangles.size() == 1);
 }
 
 TEST_CASE("Include cycles, chains, and what is missing") {

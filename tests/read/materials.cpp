@@ -88,8 +88,15 @@ TEST_CASE("named materials") {
     CHECK(scene.world().objects[1].material == scene.world().objects[2].material);
     CHECK(scene[scene.world().objects[1].material].name == "red");
     CHECK(scene.locate(scene[scene.world().objects[1].material].where) == "t.pbrt:3");
-    CHECK(error_in_world("MakeNamedMaterial \"red\" \"string type\" \"diffuse\"\nNamedMaterial \"rad\"") ==
+    std::string const unknown =
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\"\nNamedMaterial \"rad\"\n";
+    CHECK(error_in_world(unknown + "Shape \"sphere\"") ==
           "t.pbrt:3: no material \"rad\" is defined (did you mean \"red\"?)");
+    // As long as nothing is made of it, it is a slip only.
+    auto const unused = read_world(unknown + "NamedMaterial \"red\" Shape \"sphere\"");
+    CHECK(notes(unused) ==
+          "t.pbrt:3: no material \"rad\" is defined (did you mean \"red\"?), but no shape uses it\n");
+    validate(unused);
     CHECK(contains(error_in_world("MakeNamedMaterial \"a\""), "needs a \"string type\""));
     CHECK(contains(error_in_world("MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial "
                                   "\"a\" \"string type\" \"diffuse\""),
@@ -107,11 +114,60 @@ TEST_CASE("mixed materials") {
     CHECK(scene[m.b].name == "b");
     CHECK(texture_of<ConstantFloatTexture>(scene, m.amount).value == 0.25f);
     CHECK(contains(error_in_world("Material \"mix\" \"string materials\" [\"a\" \"b\"]"),
-                   "no material \"a\" is defined before"));
+                   "no material \"a\" is defined"));
+    // Named ones are made first, so one without a name may stand before them.
+    auto const early =
+        read_world("Material \"mix\" \"string materials\" [\"a\" \"b\"] Shape \"sphere\"\n" + two);
+    CHECK(early[material_of<MixMaterial>(early).b].name == "b");
     CHECK(contains(
         error_in_world("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]"),
         "is defined before"));
     CHECK(contains(error_in_world("Material \"mix\""), "needs \"string materials\" with two names"));
+}
+
+TEST_CASE("mixes of mixes of the same are refused before they are evaluated 2^n times") {
+    std::string text = "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\"\n";
+    for (int i = 1; i <= 64; ++i) {
+        auto const below = "\"m" + std::to_string(i - 1) + "\" ";
+        text += "MakeNamedMaterial \"m" + std::to_string(i) +
+                "\" \"string type\" \"mix\" \"string materials\" [" + below + below + "]\n";
+    }
+    auto const message = error_of([&] { validate(read_world(text)); });
+    CAPTURE(message);
+    CHECK(message.starts_with("t.pbrt:13: the material takes more than 4096 evaluations"));
+    // pbrt makes float textures before those of spectra, and pictures before all others.
+    auto const forward = with(
+        "Material \"diffuse\" \"texture reflectance\" \"s\" Texture \"s\" \"spectrum\" \"mix\" "
+        "\"texture amount\" \"f\" \"texture tex1\" \"i\" Texture \"f\" \"float\" \"scale\" "
+        "\"texture tex\" \"j\" Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"/a.png\" "
+        "Texture \"j\" \"float\" \"imagemap\" \"string filename\" \"/b.png\"");
+    CHECK(forward.images.size() == 2);
+    CHECK(contains(
+        error_in_world("Texture \"f\" \"float\" \"scale\" \"texture tex\" \"g\"\nTexture \"g\" \"float\" "
+                       "\"constant\""),
+        "t.pbrt:2: no float texture \"g\" is defined before this one"));
+    std::string chain = "Texture \"t0\" \"float\" \"constant\"\n";
+    for (int i = 1; i <= 64; ++i) {
+        auto const below = " \"t" + std::to_string(i - 1) + "\"";
+        chain += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\"" + below +
+                 " \"texture scale\"" + below + "\n";
+    }
+    chain += "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n";
+    chain += "Material \"mix\" \"string materials\" [\"a\" \"a\"] \"texture amount\" \"t64\"";
+    CHECK(error_of([&] {
+              validate(read_world(chain));
+          }).starts_with("t.pbrt:14: the texture takes more than 4096 evaluations"));
+}
+
+TEST_CASE("an index of refraction is above 0 at every wavelength") {
+    for (char const* eta :
+         {"\"spectrum eta\" [400 1.5 700 0]", "\"spectrum eta\" [400 -1 700 1.5]", "\"rgb eta\" [1.5 0 1.5]"})
+        for (char const* type : {"dielectric", "thindielectric"}) {
+            CAPTURE(eta);
+            CHECK(contains(
+                error_of([&] { validate(read_world("\nMaterial \"" + std::string(type) + "\" " + eta)); }),
+                "t.pbrt:3: the index of refraction must be above 0"));
+        }
 }
 
 TEST_CASE("textures") {

@@ -87,6 +87,21 @@ TEST_CASE("film") {
     CHECK(contains(notes(read("Film \"spectral\" \"integer nbuckets\" 8 WorldBegin")), "spectral buckets"));
 }
 
+TEST_CASE("what is wrong with the settings is said with its place") {
+    auto const refused = [](std::string const& text, std::string const& message) {
+        auto const error = error_of([&] { validate(read("\n" + text + "\nWorldBegin")); });
+        CAPTURE(error);
+        CHECK(error.starts_with("t.pbrt:2: " + message));
+    };
+    refused("Film \"rgb\" \"float iso\" 0", "the film's ISO speed");
+    refused("Film \"rgb\" \"float whitebalance\" -1", "the white balance");
+    refused("Film \"rgb\" \"float maxcomponentvalue\" 0", "the largest component");
+    refused("Film \"rgb\" \"integer xresolution\" 70000 \"integer yresolution\" 1",
+            "the picture may be at most");
+    refused("Sampler \"stratified\" \"integer xsamples\" 32768 \"integer ysamples\" 32768",
+            "the stratified sampler");
+}
+
 TEST_CASE("filters") {
     CHECK(as<BoxFilter>(settings("PixelFilter \"box\"").filter).radius == Vec2{0.5f, 0.5f});
     CHECK(as<BoxFilter>(settings("PixelFilter \"box\" \"float xradius\" 1 \"float yradius\" 2").filter)
@@ -99,6 +114,19 @@ TEST_CASE("filters") {
     CHECK(as<LanczosSincFilter>(settings("PixelFilter \"sinc\"").filter).tau == 3);
     CHECK(contains(error_in("PixelFilter \"box\" \"float xwidth\" 1"), "in pbrt-v4 it is \"xradius\""));
     CHECK(contains(error_in("PixelFilter \"gauss\""), "unknown pixel filter"));
+    // Each becomes a table: of a size that fits, and not of zeros.
+    for (char const* filter : {"\"box\" \"float xradius\" 1e30", "\"triangle\" \"float yradius\" 65",
+                               "\"gaussian\" \"float xradius\" 1e-30", "\"gaussian\" \"float sigma\" 1e-30",
+                               "\"gaussian\" \"float sigma\" 1e30", "\"sinc\" \"float tau\" 1e-30",
+                               "\"mitchell\" \"float B\" 1e30"}) {
+        CAPTURE(filter);
+        auto const message =
+            error_of([&] { validate(read("\nPixelFilter " + std::string(filter) + " WorldBegin")); });
+        CAPTURE(message);
+        CHECK(message.starts_with("t.pbrt:2: the "));
+        CHECK(contains(message, "filter"));
+    }
+    validate(read("PixelFilter \"gaussian\" \"float xradius\" 64 \"float yradius\" 64 WorldBegin"));
 }
 
 TEST_CASE("samplers") {
@@ -157,6 +185,9 @@ TEST_CASE("integrators") {
         CHECK(scene.notes.size() == 1);
     }
     CHECK(contains(error_in("Integrator \"path\" \"integer maxdepth\" -1"), "must not be negative"));
+    for (char const* n : {"0", "-1", "-2147483648"})
+        CHECK(contains(error_in("Integrator \"path\" \"integer segments\" " + std::string(n)),
+                       "t.pbrt:1: Integrator \"path\": \"segments\" must be at least 1"));
     CHECK(contains(error_in("Integrator \"path\" \"string roulette\" \"russian\""),
                    "use one of \"throughput\", \"fixed\", \"none\""));
     CHECK(contains(error_in("Integrator \"path\" \"float alpha\" 0"), "\"alpha\" must be above 0"));
@@ -197,7 +228,26 @@ TEST_CASE("colour spaces") {
     CHECK(wide.z == doctest::Approx(-0.018151f * 0.2f - 0.100579f * 0.6f + 1.118730f * 0.3f).epsilon(1e-4));
     CHECK(albedo("\"dci-p3\"") != Vec3{0.2f, 0.6f, 0.3f});
     CHECK(albedo("\"aces2065-1\"") != Vec3{0.2f, 0.6f, 0.3f});
+    CHECK(albedo("\"ACES2065-1\"") == albedo("\"aces2065-1\""));
     CHECK(contains(error_in_world("ColorSpace \"rec2021\""), "did you mean \"rec2020\"?"));
+    // A light is white of its space, by default and as rgb; only ACES has another white.
+    auto const lights = read_world(
+        "LightSource \"point\" ColorSpace \"rec2020\" LightSource \"point\" ColorSpace "
+        "\"aces2065-1\" LightSource \"point\" LightSource \"point\" \"rgb I\" [1 1 1]"
+        " LightSource \"infinite\" \"string filename\" \"/sky.exr\"");
+    // Pictures are sRGB wherever they are named.
+    CHECK(as<RgbIlluminantSpd>(as<InfiniteLight>(lights.lights.at(4).kind).radiance).white == RgbWhite::D65);
+    auto const light = [&](std::size_t i) {
+        return as<RgbIlluminantSpd>(as<PointLight>(lights.lights.at(i).kind).intensity);
+    };
+    CHECK(light(0).white == RgbWhite::D65);
+    CHECK(light(1).white == RgbWhite::D65);
+    for (std::size_t i : {2, 3}) {
+        CHECK(light(i).white == RgbWhite::AcesD60);
+        for (int k = 0; k < 3; ++k) CHECK(light(i).rgb[k] == doctest::Approx(1).epsilon(1e-4));
+    }
+    CHECK(contains(notes(read("ColorSpace \"rec2020\"\nFilm \"rgb\" WorldBegin")),
+                   "t.pbrt:2: the ColorSpace at Film"));
     // A block gives it back.
     auto const scene = read_world(
         "AttributeBegin ColorSpace \"rec2020\" AttributeEnd LightSource \"point\" \"rgb I\" [1 0 0]");

@@ -58,6 +58,7 @@ TEST_CASE("spectra: pairs, names, files") {
         auto const message = fails("\"bad.spd\"");
         return message.substr(message.rfind("bad.spd"));
     };
+    CHECK(bad_file("") == "bad.spd: no samples; lines are `wavelength value`");
     CHECK(bad_file("400 1\n500") == "bad.spd:2: the last wavelength has no value");
     CHECK(bad_file("400 nan") == "bad.spd:1: \"nan\" is not a finite number; lines are `wavelength value`");
     CHECK(bad_file("500 1\n400 1") == "bad.spd:2: wavelengths must increase");
@@ -126,6 +127,74 @@ TEST_CASE("Attribute sets parameters for later directives, in its block only") {
     CHECK(as<RgbAlbedoSpd>(reflectance.value).rgb == Vec3{0.25f, 0.25f, 0.25f});
     CHECK(notes(scene).empty());
     CHECK(contains(error_in_world("Attribute \"camera\" \"float fov\" 1"), "t.pbrt:2: Attribute \"camera\""));
+}
+
+TEST_CASE("what Attribute sets is shared, not copied, and bounded") {
+    // 20000 nested blocks, each of which adds to a list with a long one in it.
+    std::string points, text, ends;
+    for (int i = 0; i < 30000; ++i) points += "0 0 0 ";
+    text = "Attribute \"shape\" \"point3 P\" [" + points + "]\n";
+    for (int i = 0; i < 20000; ++i) {
+        text += "AttributeBegin Attribute \"shape\" \"float radius\" " + std::to_string(i + 1) + "\n";
+        ends += "AttributeEnd ";
+    }
+    auto const nested = read_world(text + "Shape \"sphere\" " + ends);
+    CHECK(shape_of<Sphere>(nested).radius == 20000);
+    // The same, again and again, between what keeps the list.
+    text.clear();
+    for (int i = 0; i < 5000; ++i)
+        text += "Attribute \"material\" \"rgb reflectance\" [0.5 0.5 0.5] Material \"diffuse\"\n";
+    CHECK(error_in_world(text) == "no error");
+    text.clear();
+    for (int i = 0; i < 1001; ++i) text += "Attribute \"shape\" \"float p" + std::to_string(i) + "\" 1\n";
+    CHECK(error_in_world(text) ==
+          "t.pbrt:1002: more than 1000 parameters are set by Attribute \"shape\" at once; close blocks, or "
+          "set fewer");
+}
+
+TEST_CASE("parameters of Attribute that an entity has with another type are skipped") {
+    auto const scene = read_world(R"(Attribute "shape" "float radius" 2
+        Attribute "shape" "integer radius" 3
+        Attribute "shape" "string zmin" "x"
+        Attribute "material" "float reflectance" 1
+        Material "conductor" Shape "sphere")");
+    CHECK(shape_of<Sphere>(scene).radius == 2);
+    CHECK(shape_of<Sphere>(scene).z_min == -2);
+    CHECK(material_of<ConductorMaterial>(scene).eta.valid());
+    CHECK(contains(notes(scene),
+                   "t.pbrt:4: Shape \"sphere\": parameter \"zmin\" of Attribute is a \"string\", not a "
+                   "\"float\": skipped"));
+    CHECK(contains(notes(scene), "t.pbrt:5: Material \"conductor\": parameter \"reflectance\" of Attribute"));
+    CHECK(scene.notes.size() == 2);
+    // An own one of the wrong type stays an error.
+    CHECK(contains(
+        error_in_world("Attribute \"shape\" \"float radius\" 2 Shape \"sphere\" \"integer radius\" 3"),
+        "it must be a \"float\""));
+}
+
+TEST_CASE("names in messages are short and harmless") {
+    std::string const name(5000, 'x');
+    for (auto const& text : {"Shape \"" + name + "\"", "Shape \"sphere\" \"float " + name + "\" 1",
+                             "CoordSysTransform \"" + name + "\""}) {
+        auto const said = notes(read_world(text));
+        CHECK(said.size() < 250);
+        CHECK(contains(said, "xxx…\""));
+    }
+    for (auto const& text :
+         {"ObjectInstance \"" + name + "\"", "NamedMaterial \"" + name + "\" Shape \"sphere\"",
+          "Material \"" + name + "\"", "Texture \"" + name + "\" \"float\" \"" + name + "\"",
+          "Shape \"sphere\" \"integer " + name + "\" 0.5"}) {
+        CAPTURE(text);
+        CHECK(error_in_world(text).size() < 400);
+        CHECK(contains(error_in_world(text), "x…\""));
+    }
+    auto const wild = error_in_world("Material \"a\x1b[31m\\n\"");
+    CHECK(contains(wild, "a\\x1b[31m\\n"));
+    CHECK(wild.find('\x1b') == std::string::npos);
+    // Not in the middle of a character.
+    std::string umlauts;
+    for (int i = 0; i < 100; ++i) umlauts += "ä";
+    CHECK(contains(error_in_world("Material \"a" + umlauts + "\""), "ää…\""));
 }
 
 TEST_CASE("the same note is said a few times only") {

@@ -138,10 +138,23 @@ TEST_CASE("counts and indices are not believed") {
         contains(error(ascii("0 0 0\n1 1 0\n1.000000 0", "", 3, 0)), "the file ends before its elements do"));
 }
 
+TEST_CASE("quads that are not flat are noted, once a mesh") {
+    auto const notes_of = [](std::string const& points) {
+        Folder const folder;
+        auto const mesh = ascii(points, "4 0 1 2 3\n4 3 2 1 0\n", 4, 2);
+        return notes(read_scene(folder.write("m.ply", mesh)));
+    };
+    CHECK(notes_of("0 0 0\n1 0 0\n1 1 0\n0 1 0.00001\n").empty());
+    auto const bent = notes_of("0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n");
+    CAPTURE(bent);
+    CHECK(contains(bent, "m.ply: 2 quads are not flat"));
+    CHECK(std::count(bent.begin(), bent.end(), '\n') == 1);
+}
+
 TEST_CASE("the scene says who named a mesh that is not there") {
     CHECK(contains(error_in_world("\nShape \"plymesh\" \"string filename\" \"nope.ply\""),
                    "t.pbrt:3: mesh file \"nope.ply\" does not exist"));
     CHECK(contains(error_in_world("Shape \"plymesh\""), "needs a \"string filename\""));
     CHECK(contains(error_in_world("Shape \"plymesh\" \"string filename\" \"a.stl\""),
-                   "only .ply and .obj are read"));
+                   "a.stl\" does not exist"));
 }

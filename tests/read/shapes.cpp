@@ -4,6 +4,13 @@
 using namespace nephroid;
 using namespace nephroid::test;
 
+namespace {
+float match_power(LightKind const& kind) {
+    if (auto const* spot = std::get_if<SpotLight>(&kind)) return spot->power;
+    return std::get<PointLight>(kind).power;
+}
+}  // namespace
+
 TEST_CASE("quadrics") {
     auto const scene = read_world(R"(
         Shape "sphere" "float radius" 2 "float phimax" 90
@@ -39,8 +46,9 @@ TEST_CASE("triangle meshes") {
     CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 4]"),
                    "t.pbrt:3: Shape \"trianglemesh\": \"indices\": 4 is not a point; there are 4"));
     CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 -1]"), "-1 is not a point"));
-    CHECK(contains(error_in_world(square + "\"integer indices\" [0 1 2 3]"),
-                   "4 entries are not a multiple of 3"));
+    auto const excess = read_world(square + "\"integer indices\" [0 1 2 3]");
+    CHECK(shape_of<TriangleMesh>(excess).triangles.size() == 1);
+    CHECK(contains(notes(excess), "4 entries are not a multiple of 3: the last ones are dropped"));
     CHECK(contains(error_in_world("Shape \"trianglemesh\""), "needs \"point3 P\""));
     auto const short_uv = read_world(square + "\"integer indices\" [0 1 2] \"point2 uv\" [0 0]");
     CHECK(shape_of<TriangleMesh>(short_uv).uv.empty());
@@ -124,6 +132,59 @@ TEST_CASE("lights") {
     CHECK(contains(error_in_world("LightSource \"spot\" \"point3 to\" [0 0 0]"), "it has no direction"));
     CHECK(contains(error_in_world("LightSource \"spott\""), "did you mean \"spot\"?"));
     CHECK(contains(error_in_world("LightSource \"point\" \"blackbody I\" 0"), "must be above 0 K"));
+}
+
+TEST_CASE("power and illuminance of 0 are none, as in pbrt") {
+    for (char const* text : {"\"point\" \"float power\" 0", "\"spot\" \"float power\" 0"}) {
+        auto const scene = read_world("LightSource " + std::string(text));
+        auto const power = match_power(scene.lights.at(0).kind);
+        CHECK(power == -1);
+        CHECK(contains(notes(scene), "t.pbrt:2: LightSource"));
+        CHECK(contains(notes(scene), "\"power\" is not above 0 and counts as not given"));
+    }
+    auto const sun = read_world("LightSource \"distant\" \"float illuminance\" 0");
+    CHECK(as<DistantLight>(sun.lights.at(0).kind).illuminance == -1);
+    CHECK(notes(read_world("LightSource \"point\"")).empty());
+}
+
+TEST_CASE("power of a mesh is that of all its faces, and said to be") {
+    std::string const light = "AreaLightSource \"diffuse\" \"float power\" 5\n";
+    std::string const points =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" ";
+    CHECK(contains(notes(read_world(light + points + "[0 1 2 1 2 3]")),
+                   "t.pbrt:3: the light's \"power\" is that of"));
+    CHECK(notes(read_world(light + points + "[0 1 2]")).empty());
+    CHECK(notes(read_world("AreaLightSource \"diffuse\"\n" + points + "[0 1 2 1 2 3]")).empty());
+}
+
+TEST_CASE("a spot's falloff is at most its cone") {
+    auto const scene = read_world("LightSource \"spot\" \"float coneangle\" 10 \"float conedeltaangle\" 20");
+    auto const& spot = as<SpotLight>(scene.lights.at(0).kind);
+    CHECK(spot.cone_delta == spot.cone_angle);
+    CHECK(contains(notes(scene), "t.pbrt:2: LightSource \"spot\": \"conedeltaangle\" is above"));
+    validate(scene);
+}
+
+TEST_CASE("shapes without area are skipped with a note") {
+    auto scene = read_world(R"(Shape "sphere" "float radius" 0
+        Shape "sphere" "float zmin" 2 "float zmax" 3
+        Shape "cylinder" "float radius" 0
+        Shape "disk" "float radius" 0
+        Shape "quad" "vector3 u" [0 0 0]
+        AreaLightSource "diffuse" Shape "disk" "float phimax" 0)");
+    CHECK(scene.world().objects.size() == 6);
+    drop_degenerate(scene);
+    CHECK(scene.world().objects.empty());
+    CHECK(scene.notes.size() == 6);
+    CHECK(contains(notes(scene), "t.pbrt:2: the object has no area: object skipped"));
+    validate(scene);
+    CHECK(contains(error_in_world("Shape \"sphere\" \"float radius\" -1"), "must not be negative"));
+}
+
+TEST_CASE("a transform that overflows is said to") {
+    auto scene = read_world("Scale 1e30 1e30 1e30 Scale 1e30 1e30 1e30\nShape \"sphere\"");
+    drop_degenerate(scene);
+    CHECK(contains(error_of([&] { validate(scene); }), "t.pbrt:3: the object's transform overflows"));
 }
 
 TEST_CASE("area lights") {

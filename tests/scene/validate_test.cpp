@@ -67,6 +67,18 @@ TEST_CASE("a picture named twice is one entry; another encoding is another") {
     CHECK(s.add(ImageFile{"b.png", "", {}}) == ImageId{1});
     CHECK(s.add(ImageFile{"a.png", "", {0, 7}}) == ImageId{0});
     CHECK(s.add(ImageFile{"a.png", "linear", {}}) == ImageId{2});
+    // Whoever shortens the list need not tell.
+    s.images.resize(1);
+    CHECK(s.add(ImageFile{"b.png", "linear", {}}) == ImageId{1});
+    CHECK(s.add(ImageFile{"b.png", "", {}}) == ImageId{2});
+    CHECK(s.add(ImageFile{"a.png", "", {}}) == ImageId{0});
+    CHECK(s.images.size() == 3);
+}
+
+TEST_CASE("a hundred thousand pictures do not take forever") {
+    Scene s;
+    for (int i = 0; i < 100'000; ++i) s.add(ImageFile{std::to_string(i) + ".png", "", {}});
+    CHECK(s.images.size() == 100'000);
 }
 
 TEST_CASE("ids out of range are refused with their place") {
@@ -191,7 +203,7 @@ TEST_CASE("transforms must be finite, affine and invertible") {
          [](Scene& s) { s.world().objects[0].to_group = scale(1, 0, 1); }},
         {"scene.pbrt:14: the object's transform holds",
          [](Scene& s) { s.world().objects[0].to_group = translate(0, std::nan(""), 0); }},
-        {"cannot be inverted", [](Scene& s) { s.world().objects[0].to_group = scale(1e300, 1, 1); }},
+        {"overflows", [](Scene& s) { s.world().objects[0].to_group = scale(1e300, 1, 1); }},
         {"is projective", [](Scene& s) { s.world().objects[0].to_group = perspective(60, 1, 10); }},
         {"scene.pbrt:16: the instance's transform",
          [](Scene& s) { s.world().instances[0].to_parent[1][1] = 0; }},
@@ -345,6 +357,19 @@ TEST_CASE("instances are multiplied out in 64 bits before anything is built") {
         .p = std::vector<Vec3>(3), .triangles = std::vector<Vec3i>(200, Vec3i{0, 1, 2}), .levels = 12};
     s.world().objects.push_back({.shape = loop});
     refused(s, "2^31 primitives", ErrorKind::Limit);
+}
+
+TEST_CASE("too many instances are refused at the instance with which they are") {
+    Scene s = sample_scene();
+    for (std::uint32_t level = 0; level < 4; ++level) {
+        GroupId const g = s.add(Group{.where = {0, 30 + level}});
+        s.groups[g.value].instances.assign(1000,
+                                           Instance{.group = GroupId{g.value - 1}, .where = {0, 40 + level}});
+    }
+    s.world().instances.push_back({.group = GroupId{2}, .where = {0, 50}});
+    s.world().instances.push_back({.group = GroupId{5}, .where = {0, 51}});
+    s.world().instances.push_back({.group = GroupId{2}, .where = {0, 52}});
+    refused(s, "scene.pbrt:51: the scene has more than 2^31 objects", ErrorKind::Limit);
 }
 
 TEST_CASE("what has no extent is dropped with a note, and the rest is the scene without it") {

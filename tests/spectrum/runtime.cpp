@@ -38,6 +38,19 @@ TEST_CASE("runtime: an rgb emission is seen as this rgb, in both modes") {
     CHECK(max_component(abs(seen(emission(store, RgbIlluminantSpd{{1, 1, 1}})) - Vec3(1.0f))) < 1e-4f);
 }
 
+TEST_CASE("runtime: an rgb emission of ACES is a share of D60") {
+    SpectrumStore store;
+    auto const d60 = emission(store, NamedSpd{"illum-acesD60"});
+    auto const white = emission(store, RgbIlluminantSpd{{1, 1, 1}, RgbWhite::AcesD60});
+    for (float const lambda : {400.0f, 500.0f, 600.0f, 700.0f})
+        CHECK(white.at(lambda) == doctest::Approx(d60.at(lambda)).epsilon(1e-3));
+    CHECK(max_component(abs(white.rgb() - d60.rgb())) < 1e-6f);
+    CHECK(max_component(abs(seen(white) - seen(d60))) < 1e-3f);
+    // Redder than D65, of the same luminance.
+    CHECK(white.rgb().x > 1.02f);
+    CHECK(luminance(white.rgb()) == doctest::Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("runtime: an rgb reflectance under neutral light is seen as this rgb") {
     SpectrumStore store;
     auto const white = emission(store, RgbIlluminantSpd{{1, 1, 1}});

@@ -11,6 +11,7 @@
 #include "scene/shape.h"
 #include "scene/texture.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,9 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Light> lights;
     std::vector<Group> groups{1};  // groups[0] is the world itself
+
+    /// Where add() put each picture, by path and encoding. A hint, looked up again in `images`, which anybody may change.
+    std::map<std::pair<std::string, std::string>, ImageId> image_ids;
 
     // Adding returns the id of what was added.
     TextureId add(Texture t) { return textures.push_back(std::move(t)), TextureId{last(textures)}; }

@@ -1,5 +1,5 @@
 // How a scene is to be rendered: what a file asks for and the command line overrides. A pass is a pure function of
-// (world, settings, seed, i); everything in Settings except `spp` and `film.filename` shapes the pass.
+// (world, settings, seed, i); everything in Settings except `spp`, `film.filename` and the places shapes the pass.
 #pragma once
 
 #include "math/vec.h"
@@ -85,6 +85,7 @@ struct FilmSettings {
         kInfinity;  // a sample's largest component is scaled down to this (pbrt's maxcomponentvalue)
     bool half_float = true;
     bool aovs = false;  // record the layers of the first hit
+    SourceLocation where;
 };
 
 struct Settings {
@@ -95,6 +96,7 @@ struct Settings {
     ColorMode color = ColorMode::Spectral;
     std::uint64_t seed = 0;
     int spp = 16;  // passes that the scene asks for
+    SourceLocation filter_where, sampler_where, integrator_where;
 };
 
 }  // namespace nephroid

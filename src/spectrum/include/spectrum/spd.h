@@ -5,6 +5,7 @@
 #include "math/vec.h"
 #include "spectrum/wavelengths.h"
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,8 +27,10 @@ struct BlackbodySpd {
 struct NamedSpd {
     std::string name;
 };
+/// The light that an emission given as rgb is a share of: that of the colour space in which it was given.
+enum class RgbWhite : std::uint8_t { D65, AcesD60 };
 /// Linear sRGB triple, read by its role: a reflectance in [0,1] (Jakob & Hanika 2019 sigmoid), an unbounded quantity
-/// (scaled sigmoid), or an emission (scaled sigmoid times D65). PBRT 4th ed., 4.6.6.
+/// (scaled sigmoid), or an emission (scaled sigmoid times its white). PBRT 4th ed., 4.6.6.
 struct RgbAlbedoSpd {
     Vec3 rgb{0, 0, 0};
 };
@@ -36,6 +39,7 @@ struct RgbUnboundedSpd {
 };
 struct RgbIlluminantSpd {
     Vec3 rgb{0, 0, 0};
+    RgbWhite white = RgbWhite::D65;
 };
 
 using Spd = std::variant<ConstantSpd, TabulatedSpd, BlackbodySpd, NamedSpd, RgbAlbedoSpd, RgbUnboundedSpd,

@@ -1,0 +1,11 @@
+// Any bytes are a mesh that validate() takes, or throw Error.
+#include "fuzz.h"
+
+#include "read/read.h"
+
+void nephroid::fuzz(std::string_view bytes) {
+    TemporaryFile const file(bytes, ".obj");
+    Scene scene = read_scene(file.path());
+    drop_degenerate(scene);
+    validate(scene);
+}
