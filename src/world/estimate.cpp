@@ -1,6 +1,6 @@
 #include "world/estimate.h"
 
-#include "image/exr.h"
+#include "image/peek.h"
 #include "scene/match.h"
 
 #include <algorithm>
@@ -12,20 +12,19 @@ namespace nephroid {
 
 namespace {
 
-// Bytes. Measured: growth of the resident set while compiling, Embree 3.13 and 4, meshes of 10^5 to 4 * 10^6 triangles
-// and 10^4 to 10^6 instances. Estimated: sizes of the structs that are made, rounded up.
-constexpr std::uint64_t kTriangle =
-    110;                               // measured: Embree's triangles and nodes, and its lists while building
-constexpr std::uint64_t kPatch = 150;  // estimated: the same for a primitive with callbacks
-constexpr std::uint64_t kRefinedTriangle =
-    450;  // measured: all levels of a subdivision, and the mesh that it becomes
-constexpr std::uint64_t kInstance = 470;  // measured: Embree's instance, its node, and our record
-constexpr std::uint64_t kObject = 900;    // estimated: Embree's geometry, and our record with its place
-constexpr std::uint64_t kLight =
-    64;  // estimated: an entry, its weight, and its bin of the table for choosing
-constexpr std::uint64_t kPixelOfPicture =
-    16;  // estimated: three channels of bytes or halves, as floats on the way, levels
-constexpr std::uint64_t kUnpacking = 20;  // estimated: pixels a byte of a compressed picture may stand for
+// Bytes. Measured: growth of the resident set while compiling with Embree 3.13, rounded up by a tenth: a mesh of 2 * 10^6
+// triangles (88 a triangle), the same as a light (39 more), 5 * 10^5 instances (456), 2 * 10^5 spheres (425), a
+// tetrahedron refined nine times (266 a triangle). Estimated: sizes of the structs that are made, rounded up.
+constexpr std::uint64_t kStart = 8 << 20;    // measured: Embree, threads, tables of spectra
+constexpr std::uint64_t kTriangle = 97;      // measured: Embree's triangles, nodes, and lists while building
+constexpr std::uint64_t kPatch = 150;        // estimated: the same for a primitive with callbacks
+constexpr std::uint64_t kRefined = 196;      // measured: all levels of a subdivision, and its mesh
+constexpr std::uint64_t kInstance = 500;     // measured: Embree's instance, its node, and our record
+constexpr std::uint64_t kObject = 320;       // measured: Embree's geometry, and our record with its place
+constexpr std::uint64_t kLight = 44;         // measured: entry, weight, bin of the table for choosing
+constexpr std::uint64_t kPixel = 16;         // measured for PNG (10), estimated for halves: picture, levels
+constexpr std::uint64_t kPixelOfSky = 12;    // measured: what choosing directions by a picture adds
+constexpr std::uint64_t kPixelsPerByte = 4;  // estimated: of a file that does not say how large it is
 
 std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
     return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
@@ -70,7 +69,7 @@ std::uint64_t made_of(Shape const& shape) {
     return match(
         shape, [&](TriangleMesh const&) { return times(n, kTriangle); },
         [&](BilinearMesh const&) { return times(n, kPatch); },
-        [&](LoopSubdivision const&) { return times(n, kTriangle + kRefinedTriangle); },
+        [&](LoopSubdivision const&) { return times(n, kTriangle + kRefined); },
         [](auto const&) { return kPatch; });
 }
 
@@ -111,18 +110,23 @@ Appearances appearances(Scene const& scene) {
     return groups.front();
 }
 
-/// Without unpacking it: an EXR file says how large it is, others are taken to be well compressed.
-std::uint64_t picture_bytes(ImageFile const& image) {
+/// Without unpacking it. Files that do not say how large they are (HDR, PFM) are hardly compressed.
+std::uint64_t pixels_of(ImageFile const& image) {
+    if (auto const size = peek_size(image.path); size && (*size)[0] >= 0 && (*size)[1] >= 0)
+        return times(static_cast<std::uint64_t>((*size)[0]), static_cast<std::uint64_t>((*size)[1]));
     std::error_code error;
     std::uint64_t const file = std::filesystem::file_size(image.path, error);
-    if (error) return 0;  // compile() says that it is missing
-    try {
-        ExrFile const header = read_exr_header(image.path);
-        return times(static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height),
-                     kPixelOfPicture);
-    } catch (Error const&) {
-        return times(file, kUnpacking);
-    }
+    return error ? 0 : times(file, kPixelsPerByte);  // compile() says when it is missing
+}
+
+std::uint64_t picture_bytes(Scene const& scene) {
+    std::uint64_t bytes = 0;
+    for (ImageFile const& image : scene.images) bytes = plus(bytes, times(pixels_of(image), kPixel));
+    for (Light const& light : scene.lights)
+        if (auto const* sky = std::get_if<InfiniteLight>(&light.kind))
+            if (sky->image.value < scene.images.size())
+                bytes = plus(bytes, times(pixels_of(scene[sky->image]), kPixelOfSky));
+    return bytes;
 }
 
 }  // namespace
@@ -137,10 +141,10 @@ std::uint64_t held_bytes(Scene const& scene) {
 }
 
 std::uint64_t estimated_bytes(Scene const& scene) {
-    std::uint64_t bytes = held_bytes(scene);
+    std::uint64_t bytes = plus(held_bytes(scene), kStart);
     for (Group const& g : scene.groups)
         for (Object const& o : g.objects) bytes = plus(bytes, plus(made_of(o.shape), kObject));
-    for (ImageFile const& image : scene.images) bytes = plus(bytes, picture_bytes(image));
+    bytes = plus(bytes, picture_bytes(scene));
     Appearances const all = appearances(scene);
     bytes = plus(bytes, times(all.instances, kInstance));
     return plus(bytes, times(plus(all.emitters, scene.lights.size()), kLight));

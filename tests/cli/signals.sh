@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# signals.sh PROGRAM: the first SIGINT or SIGTERM writes what there is and ends with exit code 5 within 2 s, resumable to the
+# signals.sh PROGRAM: the first SIGINT, SIGTERM or SIGHUP writes what there is and ends with exit code 5 within 2 s, resumable to the
 # same bits; the second one ends at once; a time limit ends with a picture.
 source "$(dirname "$0")/lib.sh"
 endless=(render scene.pbrt --size 320x240 --spp 1000000)
@@ -10,16 +10,16 @@ now() { echo $((${EPOCHREALTIME/./} / 1000)); }
 # Bash starts background jobs with SIGINT ignored; `env` puts it back.
 start() {
     : >err
-    env --default-signal=INT,TERM "$program" "$@" >out 2>err </dev/null &
+    env --default-signal=INT,TERM,HUP "$program" "$@" >out 2>err </dev/null &
     pid=$!
     # Rendering has begun when there is a word of progress.
     for _ in {1..200}; do
         grep -q '"progress"\|rendering' err && break
         sleep 0.05
     done
-    sleep 0.4
+    sleep "${settle:-0.4}"
 }
-for signal in INT TERM; do
+for signal in INT TERM HUP; do
     start "${endless[@]}" -o s.exr -o s.film.exr --checkpoint c.film.exr
     t=$(now)
     kill -$signal $pid
@@ -55,6 +55,70 @@ took=$(($(now) - t))
 [[ $code == 5 ]] || fail "two signals: exit code $code"
 ((took < limit)) || fail "two signals: took $took ms"
 rm -f s.exr .s.exr* s.exr*
+
+# With a checkpoint at 1920x1080, too.
+start render scene.pbrt --size 1920x1080 --spp 1000000 -o s.exr --checkpoint c.film.exr
+sleep 2
+t=$(now)
+kill -INT $pid
+wait $pid
+code=$?
+took=$(($(now) - t))
+[[ $code == 5 ]] || fail "1920x1080: exit code $code"
+((took < limit)) || fail "1920x1080: took $took ms"
+exists c.film.exr
+rm -f s.exr c.film.exr*
+
+# Before the first pass is done there is nothing to write, and what was there stays.
+echo old >s.exr
+settle=0 start render scene.pbrt --size 1600x1200 --spp 1000000 -o s.exr --checkpoint c.film.exr
+kill -INT $pid
+wait $pid
+code=$?
+[[ $code == 5 ]] || fail "no pass: exit code $code"
+says "nothing was written"
+[[ $(cat s.exr) == old ]] || fail "a picture of no pass replaced a picture"
+absent c.film.exr
+rm s.exr
+
+# While the scene is read there is nothing to write either.
+{
+    cat scene.pbrt
+    yes 'Shape "sphere"' | head -n 400000
+} >many.pbrt
+for signal in INT TERM HUP; do
+    : >err
+    env --default-signal=INT,TERM,HUP "$program" render many.pbrt -o s.exr >out 2>err </dev/null &
+    pid=$!
+    sleep 0.3
+    kill -$signal $pid
+    wait $pid
+    code=$?
+    [[ $code == 5 ]] || fail "SIG$signal while reading: exit code $code"
+    says "nothing was written"
+    absent s.exr
+done
+rm many.pbrt
+
+# Who has asked for no hangup (nohup) gets none.
+(
+    trap '' HUP
+    "$program" render scene.pbrt --time 2s -o s.exr --quiet >out 2>err &
+    pid=$!
+    sleep 0.5
+    kill -HUP $pid
+    wait $pid
+    echo $? >code
+)
+[[ $(cat code) == 0 ]] || fail "an ignored SIGHUP: exit code $(cat code)"
+rm s.exr code
+
+# However short the time, there is a pass to show.
+run 0 render scene.pbrt --time 0.0000001s -o t.exr
+! grep -q "100%  0" err || fail "no pass, and 100%"
+run 0 compare t.exr t.exr
+! grep -q "against 0 " out || fail "the picture is black"
+rm t.exr
 
 # A time limit is an end like any other.
 t=$(now)
