@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # outputs.sh PROGRAM: what a render writes and says, and what info and compare say of it.
+shared=$(realpath -m "${NEPHROID_SHARED:-$(dirname "$0")/../../../shared}")
 source "$(dirname "$0")/lib.sh"
 
 # Every kind of picture; stdout carries their paths and nothing else.
@@ -104,6 +105,15 @@ prints "1 pixel of nan.pfm"
 run 0 compare nan.pfm nan.pfm --json
 prints '"not_finite_a": 1'
 rm a.exr b.exr c.exr a.film.exr b.film.exr a.EXR nan.pfm
+
+# Pictures of luminance and subsampled chroma compare, too. There is none in the repository.
+yc=$shared/data/exr-conformance/Chromaticities/Rec709_YC.exr
+if [[ -e $yc ]]; then
+    run 0 compare "$yc" "$yc"
+    prints "RMSE            0"
+else
+    echo "no luminance-chroma picture in $shared: not looked at"
+fi
 
 # Halves end at 65504. What is brighter is written as floats, and that is said.
 sed 's/\[ 9 9 9 \]/[ 9e6 9e6 9e6 ]/' scene.pbrt >bright.pbrt

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -159,4 +160,17 @@ TEST_CASE("truncated and foreign files are refused by name") {
     forged.display_width = 3;
     write_exr(folder / "window", forged);
     refused(folder / "window", "crop window");
+}
+
+TEST_CASE("a film of more than 2 GiB is written and read like any other (NEPHROID_FULL)") {
+    if (!std::getenv("NEPHROID_FULL")) return;
+    TestFolder const folder;
+    Film film({5000, 4300}, {0, 5000, 0, 4300}, false, test_identity());
+    REQUIRE(film_bytes(5000 * 4300, false) > std::uint64_t{1900} << 20);
+    for (int y = 0; y < 4300; y += 7) film.add(y, y, {1, 2, static_cast<float>(y)}, 1);
+    film.finish_pass(0);
+    write_film(folder / "a", film, {});
+    Film const back = read_film(folder / "a");
+    CHECK(back.pixel(4200, 4200).rgb[2] == 4200);
+    CHECK(back.passes() == film.passes());
 }
