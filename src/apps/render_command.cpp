@@ -274,12 +274,22 @@ int run(RenderOptions const& o) {
                 log.warning(checkpoint_error + "; going on without a checkpoint");
             }
         };
-    RenderResult const result = render(job, control, film);
+    RenderResult result;
+    bool out_of_memory = false;
+    try {
+        result = render(job, control, film);
+    } catch (std::bad_alloc const&) {
+        out_of_memory = true;  // the passes before are whole
+    }
     progress.finish();
+    if (out_of_memory)
+        log.warning(
+            fmt::format("out of memory after {} passes; what there is is written", film.passes().count()));
     stats.render_seconds = result.seconds;
     lap();
 
     bool const interrupted = result.end == RenderEnd::Interrupted;
+    if (film.passes().empty() && out_of_memory) return kLimit;
     if (film.passes().empty()) {
         log.warning("interrupted before the first pass was done; nothing was written");
         return kInterrupted;
@@ -329,6 +339,7 @@ int run(RenderOptions const& o) {
             : o.checkpoint.empty() ? "what there is was written"
                                    : fmt::format("go on with --resume {}", o.checkpoint));
     if (log.failed()) return kIo;
+    if (out_of_memory) return kLimit;
     if (interrupted) return kInterrupted;
     return film.tainted() ? kTainted : kGood;
 }

@@ -134,13 +134,11 @@ class Loop {
         return size;
     }
 
-    bool render_batch(PassRange batch) {
-        std::atomic<bool> abandoned{false};
-        std::atomic<std::uint64_t> dropped{0};
-        tiles_done_ = 0;
-        batch_ = batch;
-        std::uint64_t const rejected = rejected_rays();
-        undo_.begin(film_);
+    void go_back() {
+        for (std::size_t i = 0; i < tiles_.size(); ++i) undo_.restore(film_, tiles_[i], i);
+    }
+
+    void render_tiles(PassRange batch, std::atomic<bool>& abandoned, std::atomic<std::uint64_t>& dropped) {
         tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
             Tile const& tile = tiles_[i];
             undo_.keep(film_, tile, i);
@@ -156,8 +154,24 @@ class Loop {
             tiles_done_.fetch_add(1, std::memory_order_relaxed);
             report(false);
         });
+    }
+
+    bool render_batch(PassRange batch) {
+        std::atomic<bool> abandoned{false};
+        std::atomic<std::uint64_t> dropped{0};
+        tiles_done_ = 0;
+        batch_ = batch;
+        std::uint64_t const rejected = rejected_rays();
+        undo_.begin(film_);
+        try {
+            render_tiles(batch, abandoned, dropped);
+        } catch (...) {
+            // No pass throws, but memory may run out: the film must be what it says it is.
+            go_back();
+            throw;
+        }
         if (abandoned) {
-            for (std::size_t i = 0; i < tiles_.size(); ++i) undo_.restore(film_, tiles_[i], i);
+            go_back();
             return false;
         }
         film_.add_dropped(dropped);

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 
 using namespace nephroid;
@@ -201,4 +202,18 @@ TEST_CASE("pass numbers near the end of 64 bits do not wrap around") {
     CHECK(result.end == RenderEnd::Complete);
     CHECK(result.passes == 4);
     CHECK(film.passes().ranges() == std::vector<PassRange>{{end - 4, end}});
+}
+
+TEST_CASE("memory that runs out in the middle of a pass costs that pass alone") {
+    Slow const slow;
+    RenderControl control;
+    control.passes = {0, 1000};
+    control.threads = 2;
+    int calls = 0;
+    control.on_progress = [&](RenderProgress const&) {
+        if (++calls == 4) throw std::bad_alloc();
+    };
+    Film film = slow.job.make_film();
+    CHECK_THROWS_AS(render(slow.job, control, film), std::bad_alloc);
+    CHECK(differing_pixels(film, by_definition(slow.job, {0, film.passes().count()})) == 0);
 }
