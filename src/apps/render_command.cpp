@@ -264,11 +264,13 @@ int run(RenderOptions const& o) {
     control.checkpoint_seconds = o.checkpoint_every;
     bool checkpoint_is_ours = !o.resume.empty() && o.resume == o.checkpoint;  // it was read, and is whole
     std::string checkpoint_error;
+    PassSet on_disk;  // passes that the checkpoint holds already
     if (!o.checkpoint.empty())
         control.on_checkpoint = [&](Film const& f) {
             std::string const before = checkpoint_error;
             if (try_checkpoint(o.checkpoint, f, checkpoint_is_ours, checkpoint_error)) {
                 checkpoint_is_ours = true;
+                on_disk = f.passes();
             } else if (checkpoint_error != before) {
                 progress.finish();
                 log.warning(checkpoint_error + "; going on without a checkpoint");
@@ -296,7 +298,7 @@ int run(RenderOptions const& o) {
     }
     // Side by side with the outputs: after a signal there are two seconds for all of them.
     std::future<bool> checkpoint;
-    if (!o.checkpoint.empty())
+    if (!o.checkpoint.empty() && on_disk != film.passes())
         checkpoint = std::async(std::launch::async, [&] {
             return try_checkpoint(o.checkpoint, film, checkpoint_is_ours, checkpoint_error);
         });

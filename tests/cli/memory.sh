@@ -11,13 +11,16 @@ refused render scene.pbrt --size 8000x8000 --memory-limit 1G
 says "--memory-limit"
 says "--crop"
 run 0 render scene.pbrt --size 8000x8000 --crop 0,0,9,9 --memory-limit 1G --quiet
-(
-    ulimit -v 4000000
-    "$program" render scene.pbrt --size 16000x16000 --crop 0,0,9999,9999 >out 2>err
-    echo $? >code
-)
-[[ $(cat code) == 3 ]] || fail "exit code $(cat code) under ulimit -v"
-says "not enough memory"
+if [[ -z ${NEPHROID_SLOW:-} ]]; then # sanitizers want terabytes of addresses
+    (
+        ulimit -v 4000000
+        "$program" render scene.pbrt --size 16000x16000 --crop 0,0,9999,9999 >out 2>err
+        echo $? >code
+    )
+    [[ $(cat code) == 3 ]] || fail "exit code $(cat code) under ulimit -v"
+    says "not enough memory"
+    rm code
+fi
 for value in x -1G 0 8X 1e99 G nan; do
     run 2 render scene.pbrt --memory-limit "$value"
     says "--memory-limit $value"
@@ -49,6 +52,6 @@ prints "estimate"
 run 0 info scene.pbrt --json
 prints '"estimated_bytes"'
 absent a.exr
-rm bomb.pbrt fine.pbrt named.exr code
+rm bomb.pbrt fine.pbrt named.exr
 only scene.pbrt
 finish
