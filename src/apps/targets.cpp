@@ -105,6 +105,7 @@ void check_output_size(std::vector<std::string> const& outputs, std::array<int, 
 
 void check_conflicts(std::vector<NamedFile> const& files) {
     std::vector<fs::path> paths;
+    paths.reserve(files.size());
     for (NamedFile const& f : files) paths.push_back(canonical(f.path));
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) {

@@ -1,5 +1,6 @@
 #include "world/estimate.h"
 
+#include "image/image.h"
 #include "image/peek.h"
 #include "scene/match.h"
 
@@ -15,15 +16,17 @@ namespace {
 // Bytes. Measured: growth of the resident set while compiling with Embree 3.13, rounded up by a tenth: a mesh of 2 * 10^6
 // triangles (88 a triangle), the same as a light (39 more), 5 * 10^5 instances (456), 2 * 10^5 spheres (425), a
 // tetrahedron refined nine times (266 a triangle). Estimated: sizes of the structs that are made, rounded up.
-constexpr std::uint64_t kStart = 8 << 20;    // measured: Embree, threads, tables of spectra
-constexpr std::uint64_t kTriangle = 97;      // measured: Embree's triangles, nodes, and lists while building
-constexpr std::uint64_t kPatch = 150;        // estimated: the same for a primitive with callbacks
-constexpr std::uint64_t kRefined = 196;      // measured: all levels of a subdivision, and its mesh
-constexpr std::uint64_t kInstance = 500;     // measured: Embree's instance, its node, and our record
-constexpr std::uint64_t kObject = 320;       // measured: Embree's geometry, and our record with its place
-constexpr std::uint64_t kLight = 44;         // measured: entry, weight, bin of the table for choosing
-constexpr std::uint64_t kPixel = 16;         // measured for PNG (10), estimated for halves: picture, levels
-constexpr std::uint64_t kPixelOfSky = 12;    // measured: what choosing directions by a picture adds
+constexpr std::uint64_t kStart = 8 << 20;  // measured: Embree, threads, tables of spectra
+constexpr std::uint64_t kTriangle = 97;    // measured: Embree's triangles, nodes, and lists while building
+constexpr std::uint64_t kPatch = 150;      // estimated: the same for a primitive with callbacks
+constexpr std::uint64_t kRefined = 196;    // measured: all levels of a subdivision, and its mesh
+constexpr std::uint64_t kInstance = 500;   // measured: Embree's instance, its node, and our record
+constexpr std::uint64_t kObject = 320;     // measured: Embree's geometry, and our record with its place
+constexpr std::uint64_t kLight = 44;       // measured: entry, weight, bin of the table for choosing
+constexpr std::uint64_t kPixel = 16;       // measured for PNG (10), estimated for halves: picture, levels
+constexpr std::uint64_t kPixelOfSky = 12;  // measured: what choosing directions by a picture adds
+constexpr std::uint64_t kMostPixelsPerByte =
+    8256;                                    // deflate makes at most 1032 bytes of one, of 8 pixels each
 constexpr std::uint64_t kPixelsPerByte = 4;  // estimated: of a file that does not say how large it is
 
 std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
@@ -110,13 +113,18 @@ Appearances appearances(Scene const& scene) {
     return groups.front();
 }
 
-/// Without unpacking it. Files that do not say how large they are (HDR, PFM) are hardly compressed.
+/// Without unpacking it. Files that do not say how large they are (HDR, PFM) are hardly compressed; those that claim more
+/// than is read, or than their bytes can hold, are refused by name when they are.
 std::uint64_t pixels_of(ImageFile const& image) {
-    if (auto const size = peek_size(image.path); size && (*size)[0] >= 0 && (*size)[1] >= 0)
-        return times(static_cast<std::uint64_t>((*size)[0]), static_cast<std::uint64_t>((*size)[1]));
     std::error_code error;
     std::uint64_t const file = std::filesystem::file_size(image.path, error);
-    return error ? 0 : times(file, kPixelsPerByte);  // compile() says when it is missing
+    if (error) return 0;
+    auto const size = peek_size(image.path);
+    if (!size) return times(file, kPixelsPerByte);
+    auto const [width, height] = *size;
+    if (width < 0 || height < 0 || width > kMaxImageSide || height > kMaxImageSide) return 0;
+    if (width * height > kMaxImageBytes) return 0;
+    return std::min(static_cast<std::uint64_t>(width * height), times(file, kMostPixelsPerByte));
 }
 
 std::uint64_t picture_bytes(Scene const& scene) {
