@@ -19,7 +19,7 @@ FilmHeader check(MergeOptions const& o) {
     add_outputs(files, o.outputs);
     for (std::string const& f : o.films) files.push_back({"the film", f, FileRole::FilmInput});
     check_conflicts(files);
-    FilmHeader const first = read_film_header(o.films.front());
+    FilmHeader first = read_film_header(o.films.front());
     PassSet passes;
     for (std::string const& f : o.films) {
         FilmHeader const header = read_film_header(f);

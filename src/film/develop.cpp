@@ -173,7 +173,7 @@ std::vector<std::string> write_picture(std::filesystem::path const& path, Film c
     std::string const extension = lower_extension(path);
     if (extension == ".exr") {
         ExrFile file = all_layers(film, settings);
-        auto const widened = widen(file);
+        auto widened = widen(file);
         write_exr(path, file, {}, settings.in_a_hurry ? ExrCompression::Fast : ExrCompression::Zip);
         return widened;
     }

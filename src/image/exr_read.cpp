@@ -138,8 +138,8 @@ ExrChannel::Type type_of(Imf::Channel const& channel) {
 }
 
 ExrFile header_of(Imf::Header const& header) {
-    auto const data = header.dataWindow();
-    auto const display = header.displayWindow();
+    auto const& data = header.dataWindow();
+    auto const& display = header.displayWindow();
     ExrFile result;
     result.width = data.max.x - data.min.x + 1;
     result.height = data.max.y - data.min.y + 1;
@@ -169,7 +169,7 @@ void read_planes(Imf::MultiPartInputFile& input, std::span<ExrTargetPlane const>
                  std::string const& path) {
     Imf::Header const& header = input.header(0);
     auto const window = header.dataWindow();
-    auto const width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    std::size_t const width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
     Imf::FrameBuffer frame;
     for (ExrTargetPlane const& plane : planes) {
         Imf::Channel const* channel = header.channels().findChannel(plane.name);

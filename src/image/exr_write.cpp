@@ -85,7 +85,7 @@ void write_exr(std::filesystem::path const& path, ExrFile const& file, std::span
     try {
         codec::translating_exr_errors(name, [&] {
             Imf::Header const header = make_header(file, more, compression);
-            auto const window = header.dataWindow();
+            auto const& window = header.dataWindow();
             std::vector<std::vector<std::uint16_t>>
                 halves;  // converted planes must live until they are written
             halves.reserve(file.channels.size());
