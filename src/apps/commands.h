@@ -24,7 +24,7 @@ struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
     std::optional<int> spp;
-    std::string time, integrator, size, crop, color, passes, checkpoint, resume, log, stats;
+    std::string time, integrator, size, crop, color, passes, checkpoint, resume, log, stats, memory_limit;
     std::vector<std::string> sets;
     std::optional<std::uint64_t> seed;
     int threads = 0;

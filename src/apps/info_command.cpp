@@ -1,4 +1,7 @@
 #include "commands.h"
+#include "console.h"
+#include "memory.h"
+#include "names.h"
 #include "read/read.h"
 #include "scene/match.h"
 #include "statistics.h"
@@ -18,16 +21,6 @@ std::string name_of(CameraKind const& c) {
         c, [](PerspectiveCamera const&) { return "perspective"; },
         [](OrthographicCamera const&) { return "orthographic"; },
         [](SphericalCamera const&) { return "spherical"; });
-}
-std::string name_of(Integrator const& i) {
-    return match(
-        i, [](PathIntegrator const&) { return "path"; }, [](WhittedIntegrator const&) { return "whitted"; },
-        [](DirectIntegrator const&) { return "direct"; });
-}
-std::string name_of(Sampler const& s) {
-    return match(
-        s, [](SobolSampler const&) { return "sobol"; }, [](StratifiedSampler const&) { return "stratified"; },
-        [](IndependentSampler const&) { return "independent"; });
 }
 std::string name_of(MaterialKind const& m) {
     return match(
@@ -58,7 +51,12 @@ std::string text_of(std::map<std::string, int> const& counts) {
 }  // namespace
 
 int run(InfoOptions const& o) {
-    World const world = compile(read_scene(o.scene));
+    Scene scene = read_scene(o.scene);
+    FilmSettings const& film = scene.settings.film;
+    auto const crop = film.crop.value_or(std::array<int, 4>{0, film.resolution.x, 0, film.resolution.y});
+    MemoryNeed const need = memory_need(scene, crop, film.aovs);
+    check_memory({need.program, need.world, 0}, std::nullopt);  // no film is made here
+    World const world = compile(std::move(scene));
     Scene const& s = world.scene();
     Settings const& settings = s.settings;
     int const depth = match(settings.integrator, [](auto const& i) { return i.max_depth; });
@@ -77,36 +75,39 @@ int run(InfoOptions const& o) {
         j["objects"] = world.counts().objects;
         j["instances"] = world.counts().instances;
         j["bytes"] = world.memory().total();
+        j["estimated_bytes"] = {{"world", need.world}, {"film", need.film}, {"total", need.total()}};
         j["notes"] = nlohmann::json::array();
         for (Note const& n : s.notes) j["notes"].push_back({{"where", s.locate(n.where)}, {"text", n.text}});
-        fmt::print("{}\n", j.dump(2));
+        print("{}\n", json_text(j, 2));
         return kGood;
     }
     WorldCounts const& c = world.counts();
     WorldMemory const m = world.memory();
     Bounds3 const& b = world.bounds();
-    fmt::print("{}\n", o.scene);
-    fmt::print("film        {} x {} pixels, {}\n", settings.film.resolution.x, settings.film.resolution.y,
-               settings.color == ColorMode::Rgb ? "rgb" : "spectral");
-    fmt::print("camera      {}\n", name_of(s.camera.kind));
-    fmt::print("integrator  {}, maxdepth {}; sampler {}, {} samples a pixel\n", name_of(settings.integrator),
-               depth, name_of(settings.sampler), settings.spp);
-    fmt::print("geometry    {} objects: {} triangles in meshes, {} analytic; {} instances\n", c.objects,
-               c.triangles, c.analytic, c.instances);
+    print("{}\n", o.scene);
+    print("film        {} x {} pixels, {}\n", settings.film.resolution.x, settings.film.resolution.y,
+          settings.color == ColorMode::Rgb ? "rgb" : "spectral");
+    print("camera      {}\n", name_of(s.camera.kind));
+    print("integrator  {}, maxdepth {}; sampler {}, {} samples a pixel\n", name_of(settings.integrator),
+          depth, name_of(settings.sampler), settings.spp);
+    print("geometry    {} objects: {} triangles in meshes, {} analytic; {} instances\n", c.objects,
+          c.triangles, c.analytic, c.instances);
     if (!b.empty())
-        fmt::print("bounds      ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})\n", b.lo.x, b.lo.y, b.lo.z,
-                   b.hi.x, b.hi.y, b.hi.z);
-    fmt::print("materials   {}\n", text_of(tally(s.materials)));
-    fmt::print("textures    {}, {} pictures\n", s.textures.size(), s.images.size());
-    fmt::print("lights      {}; {} to choose from in all\n", text_of(tally(s.lights)), c.lights);
-    fmt::print("memory      {}: meshes {}, acceleration {}, images {}, lights {}\n", bytes_text(m.total()),
-               bytes_text(m.meshes), bytes_text(m.bvh), bytes_text(m.images), bytes_text(m.lights));
-    fmt::print("scene hash  {}\n", world.scene_hash());
+        print("bounds      ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})\n", b.lo.x, b.lo.y, b.lo.z,
+              b.hi.x, b.hi.y, b.hi.z);
+    print("materials   {}\n", text_of(tally(s.materials)));
+    print("textures    {}, {} pictures\n", s.textures.size(), s.images.size());
+    print("lights      {}; {} to choose from in all\n", text_of(tally(s.lights)), c.lights);
+    print("memory      {}: meshes {}, acceleration {}, images {}, lights {}\n", bytes_text(m.total()),
+          bytes_text(m.meshes), bytes_text(m.bvh), bytes_text(m.images), bytes_text(m.lights));
+    print("estimate    {} to render: {} to compile the scene, {} for the film\n", bytes_text(need.total()),
+          bytes_text(need.world), bytes_text(need.film));
+    print("scene hash  {}\n", world.scene_hash());
     if (s.notes.empty()) {
-        fmt::print("notes       none: everything is rendered as written\n");
+        print("notes       none: everything is rendered as written\n");
     } else {
-        fmt::print("notes       {}:\n", s.notes.size());
-        for (Note const& n : s.notes) fmt::print("  {}: {}\n", s.locate(n.where), n.text);
+        print("notes       {}:\n", s.notes.size());
+        for (Note const& n : s.notes) print("  {}: {}\n", s.locate(n.where), n.text);
     }
     return kGood;
 }

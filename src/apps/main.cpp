@@ -1,33 +1,40 @@
 // nephroid: the command line.
 #include "commands.h"
+#include "console.h"
 #include "math/error.h"
 #include "overrides.h"
+#include "words.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <new>
+#include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace nephroid::cli {
 namespace {
 
-/// Whole numbers from `least`; what is wrong is said in words.
-CLI::Validator whole_number(std::int64_t least) {
-    return {[least](std::string& text) {
+constexpr std::uint64_t kLargestInt = std::numeric_limits<int>::max();
+
+/// Whole numbers from `least` to `most`; what is wrong is said in words.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+    return {[least, most](std::string& text) {
                 std::uint64_t v = 0;
                 auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
-                bool const good = r.ec == std::errc{} && r.ptr == text.data() + text.size() &&
-                                  v >= static_cast<std::uint64_t>(least);
+                bool const good =
+                    r.ec == std::errc{} && r.ptr == text.data() + text.size() && v >= least && v <= most;
                 return good ? std::string()
-                            : fmt::format("\"{}\" is not a whole number from {}", text, least);
+                            : fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most);
             },
             "", "WHOLE"};
 }
@@ -49,7 +56,7 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
                    "picture to write, once or more: .exr .png .jpg .pfm .hdr, or .film.exr for the film "
                    "itself (mergeable)")
         ->allow_extra_args(false);
-    app.add_option("--spp", o.spp, "samples per pixel, that is, passes")->check(whole_number(1));
+    app.add_option("--spp", o.spp, "samples per pixel, that is, passes")->check(whole_number(1, kLargestInt));
     app.add_option("--time", o.time, "stop after this long: 90s, 5m, 2h");
     app.add_option("--integrator", o.integrator, "path, whitted or direct");
     app.add_option("--set", o.sets, "key=value: any setting of the scene; see below")
@@ -57,7 +64,8 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
     app.add_option("--size", o.size, "WxH, resolution in pixels");
     app.add_option("--crop", o.crop, "x0,y0,x1,y1: render only these pixels");
     app.add_option("--color", o.color, "rgb or spectral")->check(CLI::IsMember({"rgb", "spectral"}));
-    app.add_option("--seed", o.seed, "seed of all random numbers")->check(whole_number(0));
+    app.add_option("--seed", o.seed, "seed of all random numbers")
+        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
     app.add_option("--threads", o.threads, "worker threads; the picture does not depend on it")
         ->check(CLI::Range(1, 1024));
     app.add_option("--passes", o.passes, "A:B, render passes A to B-1 only");
@@ -72,6 +80,8 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
     app.add_flag("--quiet", o.quiet, "print errors and results only");
     app.add_option("--log", o.log, "json: progress and statistics as JSON lines on stderr")
         ->check(CLI::IsMember({"json", "text"}));
+    app.add_option("--memory-limit", o.memory_limit,
+                   "refuse to begin what needs more memory: 8G, 500M; default: what the machine has left");
     app.add_option("--stats", o.stats, "write statistics as JSON to this file");
     app.footer("Settings for --set:\n" + override_help());
     return &app;
@@ -96,9 +106,33 @@ CLI::App const* declare(CLI::App& app, MergeOptions& o) {
 CLI::App const* declare(CLI::App& app, CompareOptions& o) {
     app.add_option("a", o.a, "picture")->required();
     app.add_option("b", o.b, "picture to compare with: the reference")->required();
-    app.add_option("--bins", o.bins, "side of the blocks for the binned error")->check(whole_number(1));
+    app.add_option("--bins", o.bins, "side of the blocks for the binned error")
+        ->check(whole_number(1, kLargestInt));
     app.add_flag("--json", o.json, "print JSON");
     return &app;
+}
+
+/// Runs f; what it throws is said, and becomes an exit code.
+int guarded(std::function<int()> const& f) {
+    try {
+        return f();
+    } catch (Error const& e) {
+        say("nephroid: {}\n", e.what());
+        switch (e.kind()) {
+            case ErrorKind::Input:
+                return kBadInput;
+            case ErrorKind::Limit:
+                return kLimit;
+            case ErrorKind::Io:
+                return kIo;
+        }
+    } catch (std::bad_alloc const&) {
+        say("nephroid: out of memory\n");
+        return kLimit;
+    } catch (std::exception const& e) {
+        say("nephroid: internal error: {}\n", e.what());
+    }
+    return kInternal;
 }
 
 }  // namespace
@@ -107,6 +141,7 @@ CLI::App const* declare(CLI::App& app, CompareOptions& o) {
 int main(int argc, char** argv) {
     using namespace nephroid;
     using namespace nephroid::cli;
+    prepare_streams();
     CLI::App app{
         "nephroid: a physically based renderer whose passes are reproducible to the bit.\n"
         "A render is a sum of independent passes; films of different passes merge into one."};
@@ -146,30 +181,24 @@ int main(int argc, char** argv) {
         declare(*app.add_subcommand("compare", "say how far apart two pictures are"), compare),
         [&] { return run(compare); });
 
+    std::vector<std::string> const names{"render", "info", "merge", "compare"};
+    if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+        say("nephroid: \"{}\" is no command; did you mean \"{}\"? (nephroid --help lists them)\n", argv[1],
+            nearest(argv[1], names));
+        return kBadInput;
+    }
+    int code = kGood;
     try {
         app.parse(argc, argv);
-    } catch (CLI::ParseError const& e) {
-        int const code = app.exit(e);
-        return code == 0 ? kGood : kBadInput;
-    }
-    try {
         for (auto const& [sub, command] : commands)
-            if (sub->parsed()) return command();
-    } catch (Error const& e) {
-        fmt::print(stderr, "nephroid: {}\n", e.what());
-        switch (e.kind()) {
-            case ErrorKind::Input:
-                return kBadInput;
-            case ErrorKind::Limit:
-                return kLimit;
-            case ErrorKind::Io:
-                return kIo;
-        }
-    } catch (std::bad_alloc const&) {
-        fmt::print(stderr, "nephroid: out of memory\n");
-        return kLimit;
-    } catch (std::exception const& e) {
-        fmt::print(stderr, "nephroid: internal error: {}\n", e.what());
+            if (sub->parsed()) code = guarded(command);
+    } catch (CLI::ParseError const& e) {
+        std::ostringstream out, err;
+        code = app.exit(e, out, err) == 0 ? kGood : kBadInput;
+        print_text(out.str());
+        say_text(err.str());
     }
-    return kInternal;
+    // Lost results are an error even where everything else went well.
+    int const flushed = guarded([] { return flush_results(), int{kGood}; });
+    return flushed == kGood ? code : flushed;
 }

@@ -2,13 +2,12 @@
 
 #include "math/error.h"
 #include "scene/match.h"
+#include "words.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 namespace nephroid::cli {
@@ -145,37 +144,22 @@ std::vector<Key> const& keys() {
     return list;
 }
 
-int edit_distance(std::string const& a, std::string const& b) {
-    std::vector<int> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
-        row[0] = static_cast<int>(i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            int const old = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = old;
-        }
-    }
-    return row.back();
-}
-
 }  // namespace
 
 void apply_override(Settings& settings, std::string const& assignment) {
     auto const eq = assignment.find('=');
     if (eq == std::string::npos) refuse(fmt::format("--set {}: expected key=value", assignment));
     std::string const name = assignment.substr(0, eq);
-    Key const* nearest = nullptr;
+    std::vector<std::string> names;
     for (Key const& k : keys()) {
         if (name == k.name) {
             k.set(settings, assignment.substr(eq + 1));
             return;
         }
-        if (!nearest || edit_distance(name, k.name) < edit_distance(name, nearest->name)) nearest = &k;
+        names.emplace_back(k.name);
     }
     refuse(fmt::format("--set {}: unknown setting; did you mean \"{}\"? (nephroid render --help lists them)",
-                       name, nearest->name));
+                       name, nearest(name, names)));
 }
 
 void set_integrator(Settings& settings, std::string const& name) {

@@ -1,11 +1,12 @@
 #include "progress.h"
 
+#include "console.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 namespace nephroid::cli {
 
@@ -38,30 +39,31 @@ void ProgressPrinter::operator()(RenderProgress const& p) {
                                {"of", p.passes_wanted},
                                {"fraction", p.fraction},
                                {"seconds", p.seconds}};
-        fmt::print(stderr, "{}\n", j.dump());
+        say("{}\n", j.dump());
         return;
     }
+    // Rounded down, so that 100% is the end and nothing else.
+    double const percent = std::floor(100 * p.fraction);
     bool const open_ended = p.passes_wanted > (1ull << 40);
     std::string const passes = open_ended ? fmt::format("{} passes", p.passes_done)
                                           : fmt::format("{} / {} passes", p.passes_done, p.passes_wanted);
     std::string const time = done ? fmt::format("{}", clock_text(p.seconds))
                                   : fmt::format("{}, {} left", clock_text(p.seconds), clock_text(left));
     if (style_ == ProgressStyle::Lines) {
-        fmt::print(stderr, "rendering: {:3.0f}%  {}  {}\n", 100 * p.fraction, passes, time);
+        say("rendering: {:3.0f}%  {}  {}\n", percent, passes, time);
         return;
     }
     constexpr int width = 40;
     auto const filled = static_cast<int>(std::lround(width * p.fraction));
     std::string bar;
     for (int i = 0; i < width; ++i) bar += i < filled ? "█" : "░";
-    fmt::print(stderr, "\r{} {:3.0f}%  {}  {}\033[K", bar, 100 * p.fraction, passes, time);
-    std::fflush(stderr);
+    say("\r{} {:3.0f}%  {}  {}\033[K", bar, percent, passes, time);
     open_line_ = true;
     if (done) finish();
 }
 
 void ProgressPrinter::finish() {
-    if (open_line_) fmt::print(stderr, "\n");
+    if (open_line_) say("\n");
     open_line_ = false;
 }
 

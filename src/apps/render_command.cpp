@@ -1,27 +1,32 @@
+#include "checkpoint_guard.h"
 #include "commands.h"
+#include "console.h"
 #include "film/checkpoint.h"
 #include "film/develop.h"
 #include "image/file.h"
 #include "math/error.h"
+#include "memory.h"
+#include "names.h"
+#include "outputs.h"
 #include "overrides.h"
 #include "progress.h"
 #include "read/read.h"
 #include "render/render.h"
-#include "scene/match.h"
 #include "signals.h"
 #include "statistics.h"
+#include "targets.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
+#include <cmath>
 #include <filesystem>
+#include <future>
+#include <new>
+#include <span>
 #include <thread>
 
 namespace nephroid::cli {
@@ -62,51 +67,13 @@ double seconds_of(std::string const& text) {
     auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
     std::string const unit(r.ptr, text.data() + text.size());
     double const scale = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-    if (r.ec != std::errc{} || !(v > 0) || scale == 0)
+    if (r.ec != std::errc{} || !(v > 0) || !std::isfinite(v * scale) || scale == 0)
         refuse(fmt::format("--time {}: expected a duration such as 90s, 5m or 2h", text));
     return v * scale;
 }
 
 double since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-}
-
-bool is_film_name(std::string const& path) {
-    return path.size() > 9 && path.compare(path.size() - 9, 9, ".film.exr") == 0;
-}
-
-/// Refuses a file that could not be written in the end, before hours of work: by making one beside it.
-void check_folder(std::string const& option, std::string const& file) {
-    fs::path const parent = fs::path(file).parent_path();
-    fs::path const folder = parent.empty() ? fs::path(".") : parent;
-    std::error_code ec;
-    if (!fs::is_directory(folder, ec))
-        throw Error(ErrorKind::Io,
-                    fmt::format("{} {}: there is no folder {}", option, file, folder.string()));
-    if (fs::is_directory(file, ec))
-        throw Error(ErrorKind::Io, fmt::format("{} {}: that is a folder", option, file));
-    std::string probe = (folder / ".nephroid-XXXXXX").string();
-    int const fd = mkstemp(probe.data());
-    if (fd < 0)
-        throw Error(ErrorKind::Io, fmt::format("{} {}: cannot write in the folder {}: {}", option, file,
-                                               folder.string(), std::strerror(errno)));
-    close(fd);
-    unlink(probe.c_str());
-}
-
-void check_outputs(std::vector<std::string> const& outputs) {
-    static constexpr char const* known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
-    for (std::string const& out : outputs) {
-        fs::path const path(out);
-        std::string extension = path.extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if (std::none_of(std::begin(known), std::end(known), [&](char const* k) { return extension == k; }))
-            refuse(
-                fmt::format("-o {}: cannot write \"{}\" files; use .exr, .png, .jpg, .pfm, .hdr or .film.exr",
-                            out, extension));
-        check_folder("-o", out);
-    }
 }
 
 Settings settings_of(RenderOptions const& o, Scene const& scene) {
@@ -136,11 +103,16 @@ Settings settings_of(RenderOptions const& o, Scene const& scene) {
     return s;
 }
 
+/// Far beyond what anyone renders, and sums of two such numbers still fit.
+constexpr std::uint64_t kLastPass = std::uint64_t{1} << 63;
+
 PassRange passes_of(RenderOptions const& o, Settings const& s) {
     if (!o.passes.empty()) {
         auto const v = numbers<std::uint64_t>("--passes", o.passes, ':', 2);
         if (v[0] >= v[1])
             refuse(fmt::format("--passes {}: the range A:B is empty; B must be larger than A", o.passes));
+        if (v[1] > kLastPass)
+            refuse(fmt::format("--passes {}: passes end at 2^63; choose a smaller B", o.passes));
         return {v[0], v[1]};
     }
     // With a time limit alone, as many as fit.
@@ -152,10 +124,7 @@ std::map<std::string, std::string> metadata(RenderJob const& job, Film const& fi
                                             RunStatistics const& stats) {
     Settings const& s = job.settings();
     return {{"renderer", "nephroid 0.1.0"},
-            {"integrator", match(
-                               s.integrator, [](PathIntegrator const&) { return "path"; },
-                               [](WhittedIntegrator const&) { return "whitted"; },
-                               [](DirectIntegrator const&) { return "direct"; })},
+            {"integrator", name_of(s.integrator)},
             {"colorMode", s.color == ColorMode::Rgb ? "rgb" : "spectral"},
             {"seed", std::to_string(s.seed)},
             {"samplesPerPixel", std::to_string(film.passes().count())},
@@ -163,28 +132,77 @@ std::map<std::string, std::string> metadata(RenderJob const& job, Film const& fi
             {"renderSeconds", fmt::format("{:.3f}", stats.render_seconds)}};
 }
 
-void write_outputs(std::vector<std::string> const& outputs, Film const& film, RenderJob const& job,
-                   RenderOptions const& o, RunStatistics const& stats) {
-    DevelopSettings develop;
-    develop.half_float = job.settings().film.half_float;
-    develop.exposure = o.exposure;
-    develop.metadata = metadata(job, film, stats);
-    for (std::string const& out : outputs) {
-        if (is_film_name(out)) {
-            // No times in a film: two films of the same passes are the same file.
-            DevelopSettings plain = develop;
-            plain.metadata.erase("renderSeconds");
-            write_film(out, film, plain);
-        } else {
-            write_picture(out, film, develop);
-        }
-        fmt::print("{}\n", fs::absolute(out).lexically_normal().string());
+/// The pixels x0 x1 y0 y1 that will be rendered; RenderJob has the last word.
+std::array<int, 4> crop_of(Settings const& s) {
+    return s.film.crop.value_or(std::array<int, 4>{0, s.film.resolution.x, 0, s.film.resolution.y});
+}
+
+/// Everything that this run reads and writes.
+void check_files(RenderOptions const& o, std::vector<std::string> const& outputs, Scene const& scene) {
+    std::vector<NamedFile> files;
+    add_outputs(files, outputs);
+    if (!o.stats.empty()) files.push_back({"--stats", o.stats, FileRole::Output});
+    if (!o.checkpoint.empty())
+        for (char const* suffix : {"", ".next", ".previous"})
+            files.push_back({"--checkpoint", o.checkpoint + suffix, FileRole::FilmOutput});
+    if (!o.resume.empty()) files.push_back({"--resume", o.resume, FileRole::FilmInput});
+    files.push_back({"the scene", o.scene, FileRole::Input});
+    for (std::string const& f : scene.files)
+        if (f != o.scene) files.push_back({"the scene's", f, FileRole::Input});
+    for (ImageFile const& image : scene.images) files.push_back({"the picture", image.path, FileRole::Input});
+    check_conflicts(files);
+}
+
+/// What went wrong while nothing could be done about it but to go on; and everything else that is said on the way.
+class Log {
+  public:
+    Log(bool json, bool quiet) : json_(json), quiet_(quiet) {}
+    void error(std::string const& text) {
+        failed_ = true;
+        event("error", "nephroid: " + text, text);
     }
+    /// Also with --quiet.
+    void warning(std::string const& text) const { event("warning", "nephroid: " + text, text); }
+    void note(std::string const& text) const {
+        if (json_ || !quiet_) event("note", text, text);
+    }
+    [[nodiscard]] bool failed() const { return failed_; }
+
+  private:
+    void event(char const* kind, std::string const& for_people, std::string const& text) const {
+        if (json_)
+            say("{}\n", json_text({{"event", kind}, {"text", text}}));
+        else
+            say("{}\n", for_people);
+    }
+    bool json_, quiet_, failed_ = false;
+};
+
+/// One that fails must not end the render: the next one may succeed, and the film is in memory. Returns whether it did.
+bool try_checkpoint(std::string const& file, Film const& film, bool ours, std::string& error) {
+    try {
+        write_checkpoint(file, film, ours);
+        error.clear();
+        return true;
+    } catch (Error const& e) {
+        error = e.what();
+    } catch (std::bad_alloc const&) {
+        error = file + ": out of memory";
+    }
+    return false;
+}
+
+void write_statistics(std::string const& file, RunStatistics const& stats, Log& log) try {
+    std::string const text = json_text(to_json(stats), 2) + "\n";
+    write_file_atomically(file, std::as_bytes(std::span(text.data(), text.size())));
+} catch (Error const& e) {
+    log.error(e.what());
 }
 
 }  // namespace
 
 int run(RenderOptions const& o) {
+    catch_signals();
     RunStatistics stats;
     auto t = std::chrono::steady_clock::now();
     auto const lap = [&] {
@@ -192,54 +210,49 @@ int run(RenderOptions const& o) {
         t = std::chrono::steady_clock::now();
         return s;
     };
+    bool const json = o.log == "json";
+    Log log(json, o.quiet);
     check_outputs(o.outputs);
-    if (!o.checkpoint.empty()) check_folder("--checkpoint", o.checkpoint);
-    if (!o.stats.empty()) check_folder("--stats", o.stats);
+    if (!o.checkpoint.empty()) check_target("--checkpoint", o.checkpoint, true);
+    if (!o.stats.empty()) check_target("--stats", o.stats);
     std::optional<double> const seconds = o.time.empty() ? std::nullopt : std::optional(seconds_of(o.time));
+    std::optional<std::uint64_t> const memory_limit =
+        o.memory_limit.empty() ? std::nullopt : std::optional(parse_bytes("--memory-limit", o.memory_limit));
     Scene scene = read_scene(o.scene);
     Settings const settings = settings_of(o, scene);
     PassRange const passes = passes_of(o, settings);
     std::vector<std::string> outputs = o.outputs;
     if (outputs.empty()) {
-        fs::path const named(settings.film.filename);
-        outputs.push_back(named.empty() ? fs::path(o.scene).stem().string() + ".exr"
-                                        : named.filename().string());
+        // Like pbrt: relative to the folder where the program was started.
+        outputs.push_back(settings.film.filename.empty() ? fs::path(o.scene).stem().string() + ".exr"
+                                                         : settings.film.filename);
         check_outputs(outputs);
     }
+    check_output_size(outputs, crop_of(settings));
+    check_files(o, outputs, scene);
+    check_memory(memory_need(scene, crop_of(settings), settings.film.aovs), memory_limit);
     stats.read_seconds = lap();
 
     scene.settings = settings;  // so that overrides are validated like the rest
     World const world = compile(std::move(scene));
     RenderJob const job(world, settings);
     Film film = job.make_film();
-    if (!o.resume.empty()) {
-        CheckpointSource source;
-        Film resumed = read_checkpoint(o.resume, &source);
-        if (!source.problem.empty())
-            fmt::print(stderr, "nephroid: {}; going on from {}\n", source.problem, source.file.string());
-        try {
-            merge_into(film, resumed);
-        } catch (Error const& e) {
-            refuse(fmt::format("--resume {}: {}", o.resume, e.what()));
-        }
-    }
+    film.describe(words_of(settings));
+    if (!o.resume.empty()) resume(o.resume, film);
+    if (!o.checkpoint.empty())
+        // How far a time limit reaches, nobody knows.
+        guard_checkpoint(o.checkpoint, o.resume, film, seconds ? PassRange{0, 0} : passes);
     stats.compile_seconds = lap();
 
-    bool const json = o.log == "json";
     std::size_t const notes = world.scene().notes.size();
     if (json) {
-        fmt::print(stderr, "{{\"event\":\"notes\",\"count\":{}}}\n", notes);
-    } else if (!o.quiet && notes > 0) {
-        fmt::print(stderr, "{}: {} thing{} approximated or ignored; `nephroid info {}` lists {}\n", o.scene,
-                   notes, notes == 1 ? "" : "s", o.scene, notes == 1 ? "it" : "them");
+        say("{{\"event\":\"notes\",\"count\":{}}}\n", notes);
+    } else if (notes > 0) {
+        log.note(fmt::format("{}: {} thing{} approximated or ignored; `nephroid info {}` lists {}", o.scene,
+                             notes, notes == 1 ? "" : "s", o.scene, notes == 1 ? "it" : "them"));
     }
-    if (world.counts().lights == 0) {
-        if (json) {
-            fmt::print(stderr, "{{\"event\":\"warning\",\"text\":\"the scene has no lights\"}}\n");
-        } else if (!o.quiet) {
-            fmt::print(stderr, "{}: warning: the scene has no lights; the picture will be black\n", o.scene);
-        }
-    }
+    if (world.counts().lights == 0)
+        log.note(fmt::format("{}: warning: the scene has no lights; the picture will be black", o.scene));
 
     ProgressPrinter progress(progress_style(o.quiet, o.log));
     RenderControl control;
@@ -249,15 +262,55 @@ int run(RenderOptions const& o) {
     control.stop = &stop_on_signals();
     control.on_progress = std::ref(progress);
     control.checkpoint_seconds = o.checkpoint_every;
+    bool checkpoint_is_ours = !o.resume.empty() && o.resume == o.checkpoint;  // it was read, and is whole
+    std::string checkpoint_error;
+    PassSet on_disk;  // passes that the checkpoint holds already
     if (!o.checkpoint.empty())
-        control.on_checkpoint = [&](Film const& f) { write_checkpoint(o.checkpoint, f); };
-    RenderResult const result = render(job, control, film);
+        control.on_checkpoint = [&](Film const& f) {
+            std::string const before = checkpoint_error;
+            if (try_checkpoint(o.checkpoint, f, checkpoint_is_ours, checkpoint_error)) {
+                checkpoint_is_ours = true;
+                on_disk = f.passes();
+            } else if (checkpoint_error != before) {
+                progress.finish();
+                log.warning(checkpoint_error + "; going on without a checkpoint");
+            }
+        };
+    RenderResult result;
+    bool out_of_memory = false;
+    try {
+        result = render(job, control, film);
+    } catch (std::bad_alloc const&) {
+        out_of_memory = true;  // the passes before are whole
+    }
     progress.finish();
+    if (out_of_memory)
+        log.warning(
+            fmt::format("out of memory after {} passes; what there is is written", film.passes().count()));
     stats.render_seconds = result.seconds;
     lap();
 
-    if (!o.checkpoint.empty()) write_checkpoint(o.checkpoint, film);
-    write_outputs(outputs, film, job, o, stats);
+    bool const interrupted = result.end == RenderEnd::Interrupted;
+    if (film.passes().empty() && out_of_memory) return kLimit;
+    if (film.passes().empty()) {
+        log.warning("interrupted before the first pass was done; nothing was written");
+        return kInterrupted;
+    }
+    // Side by side with the outputs: after a signal there are two seconds for all of them.
+    std::future<bool> checkpoint;
+    if (!o.checkpoint.empty() && on_disk != film.passes())
+        checkpoint = std::async(std::launch::async, [&] {
+            return try_checkpoint(o.checkpoint, film, checkpoint_is_ours, checkpoint_error);
+        });
+    DevelopSettings develop;
+    develop.half_float = settings.film.half_float;
+    develop.exposure = o.exposure;
+    develop.in_a_hurry = interrupted;
+    develop.metadata = metadata(job, film, stats);
+    for (std::string const& error :
+         write_outputs(outputs, film, develop, [&](std::string const& text) { log.warning(text); }))
+        log.error(error);
+    if (checkpoint.valid() && !checkpoint.get()) log.error(checkpoint_error);
     stats.write_seconds = lap();
 
     auto const crop = job.crop();
@@ -269,28 +322,28 @@ int run(RenderOptions const& o) {
     stats.samples = result.passes * static_cast<std::uint64_t>(crop[1] - crop[0]) *
                     static_cast<std::uint64_t>(crop[3] - crop[2]);
     stats.dropped = film.dropped();
+    stats.rejected = film.rejected();
     stats.threads =
         o.threads > 0 ? o.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    if (!o.stats.empty()) {
-        std::string const text = to_json(stats).dump(2) + "\n";
-        write_file_atomically(o.stats, std::as_bytes(std::span(text.data(), text.size())));
-    }
-    bool const interrupted = result.end == RenderEnd::Interrupted;
+    if (!o.stats.empty()) write_statistics(o.stats, stats, log);
     if (json) {
         nlohmann::json j = to_json(stats);
-        j["event"] = interrupted ? "interrupted" : "done";
-        fmt::print(stderr, "{}\n", j.dump());
+        j["event"] = log.failed() ? "failed" : interrupted ? "interrupted" : "done";
+        say("{}\n", json_text(j));
     } else if (!o.quiet) {
-        fmt::print(stderr, "{}", table(stats));
+        say_text(table(stats));
+    } else if (film.tainted()) {
+        log.warning(taint(film));
     }
-    if (interrupted) {
-        if (!json)
-            fmt::print(stderr, "nephroid: interrupted after {} passes; {}\n", film.passes().count(),
-                       o.checkpoint.empty() ? "what there is was written"
-                                            : fmt::format("go on with --resume {}", o.checkpoint));
-        return kInterrupted;
-    }
-    return film.dropped() > 0 || result.rays.rejected > 0 ? kTainted : kGood;
+    if (interrupted && !json)
+        say("nephroid: interrupted after {} passes; {}\n", film.passes().count(),
+            log.failed()           ? "what could be written was written"
+            : o.checkpoint.empty() ? "what there is was written"
+                                   : fmt::format("go on with --resume {}", o.checkpoint));
+    if (log.failed()) return kIo;
+    if (out_of_memory) return kLimit;
+    if (interrupted) return kInterrupted;
+    return film.tainted() ? kTainted : kGood;
 }
 
 }  // namespace nephroid::cli

@@ -13,6 +13,10 @@ std::string bytes_text(std::size_t bytes) {
     return fmt::format("{:.2f} GiB", b / (1024.0 * 1024 * 1024));
 }
 
+std::string json_text(nlohmann::json const& json, int indentation) {
+    return json.dump(indentation, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 namespace {
 constexpr char const* kKinds[3] = {"camera", "bounce", "shadow"};
 double rate(std::uint64_t n, double seconds) { return seconds > 0 ? static_cast<double>(n) / seconds : 0; }
@@ -41,8 +45,8 @@ std::string table(RunStatistics const& s) {
         bytes_text(s.film_bytes));
     if (s.dropped > 0)
         t += fmt::format("DROPPED {} samples that were not finite: the picture is tainted\n", s.dropped);
-    if (s.rays.rejected > 0)
-        t += fmt::format("REFUSED {} rays that were not finite: the picture is tainted\n", s.rays.rejected);
+    if (s.rejected > 0)
+        t += fmt::format("REFUSED {} rays that were not finite: the picture is tainted\n", s.rejected);
     return t;
 }
 
@@ -69,6 +73,7 @@ nlohmann::json to_json(RunStatistics const& s) {
     j["passes"] = s.passes;
     j["samples"] = s.samples;
     j["dropped"] = s.dropped;
+    j["rejected"] = s.rejected;
     return j;
 }
 

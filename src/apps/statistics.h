@@ -16,12 +16,15 @@ struct RunStatistics {
     WorldMemory memory;
     WorldCounts counts;
     std::size_t film_bytes = 0;
-    std::uint64_t passes = 0, samples = 0, dropped = 0;
+    std::uint64_t passes = 0, samples = 0;
+    std::uint64_t dropped = 0, rejected = 0;  // of the whole film
     int threads = 0;
 };
 
 std::string table(RunStatistics const& s);
 nlohmann::json to_json(RunStatistics const& s);
+/// Names of files are bytes, and JSON is UTF-8: what is not is replaced. Indentation as nlohmann::json::dump has it.
+std::string json_text(nlohmann::json const& json, int indentation = -1);
 std::string bytes_text(std::size_t bytes);
 
 }  // namespace nephroid::cli

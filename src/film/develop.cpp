@@ -89,6 +89,27 @@ std::string lower_extension(std::filesystem::path const& path) {
     return extension;
 }
 
+std::string layer_of(std::string const& channel) {
+    auto const dot = channel.find('.');
+    return dot == std::string::npos ? std::string() : channel.substr(0, dot);
+}
+
+/// Halves end at 65504. A layer with a number beyond becomes floats as a whole; returns the first channel of each.
+std::vector<std::string> widen(ExrFile& file) {
+    std::vector<std::string> widened;
+    for (ExrChannel const& wide : file.channels) {
+        if (wide.type != ExrChannel::Type::Half) continue;
+        if (std::none_of(wide.data.begin(), wide.data.end(),
+                         [](float v) { return std::isfinite(v) && std::abs(v) > kLargestHalf; }))
+            continue;
+        widened.push_back(wide.name);
+        for (ExrChannel& c : file.channels)
+            if (c.type == ExrChannel::Type::Half && layer_of(c.name) == layer_of(widened.back()))
+                c.type = ExrChannel::Type::Float;
+    }
+    return widened;
+}
+
 void require_pixels(Film const& film) {
     if (film.width() <= 0 || film.height() <= 0)
         throw Error(ErrorKind::Input, "the film has no pixels: there is nothing to develop");
@@ -120,13 +141,16 @@ ExrFile develop_beauty_exr(Film const& film, DevelopSettings const& settings) {
     file.attributes["nephroid.seed"] = std::to_string(film.identity().seed);
     file.attributes["nephroid.passes"] = film.passes().text();
     file.attributes["nephroid.dropped"] = std::to_string(film.dropped());
+    file.attributes["nephroid.rejected"] = std::to_string(film.rejected());
     for (std::size_t c = 0; c < 3; ++c)
         add_channel(file, film, std::string(1, "RGB"[c]), type,
                     [&](int x, int y) { return mean(film.pixel(x, y), c); });
     return file;
 }
 
-ExrFile develop_exr(Film const& film, DevelopSettings const& settings) {
+namespace {
+
+ExrFile all_layers(Film const& film, DevelopSettings const& settings) {
     ExrFile file = develop_beauty_exr(film, settings);
     for (std::size_t c = 0; c < 3; ++c)
         add_channel(file, film, std::string("variance.") + "RGB"[c], ExrChannel::Type::Float,
@@ -136,15 +160,30 @@ ExrFile develop_exr(Film const& film, DevelopSettings const& settings) {
     return file;
 }
 
-void write_picture(std::filesystem::path const& path, Film const& film, DevelopSettings const& settings) {
+}  // namespace
+
+ExrFile develop_exr(Film const& film, DevelopSettings const& settings) {
+    ExrFile file = all_layers(film, settings);
+    widen(file);
+    return file;
+}
+
+std::vector<std::string> write_picture(std::filesystem::path const& path, Film const& film,
+                                       DevelopSettings const& settings) {
     std::string const extension = lower_extension(path);
-    if (extension == ".exr") return write_exr(path, develop_exr(film, settings));
+    if (extension == ".exr") {
+        ExrFile file = all_layers(film, settings);
+        auto widened = widen(file);
+        write_exr(path, file, {}, settings.in_a_hurry ? ExrCompression::Fast : ExrCompression::Zip);
+        return widened;
+    }
     Image image = develop(film);
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
         float const gain = std::exp2(settings.exposure);
         for (float& v : image.floats()) v *= gain;
     }
     write_image(path, image);  // encodes for 8 bits, and refuses what it does not know
+    return {};
 }
 
 }  // namespace nephroid

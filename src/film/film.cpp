@@ -44,12 +44,13 @@ void add(AovSums& a, AovSums const& b) {
     throw Error(ErrorKind::Input, "cannot merge the films: " + message);
 }
 
-void require_same_render(FilmIdentity const& a, FilmIdentity const& b) {
-    if (a.scene_hash != b.scene_hash) refuse("they show different scenes");
-    if (a.settings_hash != b.settings_hash) refuse("they were rendered with different settings");
-    if (a.seed != b.seed)
-        refuse("they were rendered with seeds " + std::to_string(a.seed) + " and " + std::to_string(b.seed));
-    if (!(a == b)) refuse("they belong to different renders");
+std::string size_text(FilmHeader const& h) {
+    return std::to_string(h.resolution.x) + "x" + std::to_string(h.resolution.y);
+}
+std::string crop_text(FilmHeader const& h) {
+    auto const [x0, x1, y0, y1] = h.crop;
+    return std::to_string(x0) + "," + std::to_string(y0) + "," + std::to_string(x1) + "," +
+           std::to_string(y1);
 }
 
 }  // namespace
@@ -65,8 +66,35 @@ Film::Film(Vec2i resolution, std::array<int, 4> crop, bool with_aovs, FilmIdenti
     if (with_aovs) aovs_.resize(static_cast<std::size_t>(pixels));
 }
 
-std::size_t Film::bytes() const {
-    return pixels_.size() * sizeof(PixelSums) + aovs_.size() * sizeof(AovSums);
+std::size_t Film::bytes() const { return film_bytes(pixels_.size(), has_aovs()); }
+
+std::uint64_t film_bytes(std::uint64_t pixels, bool with_aovs) {
+    return pixels * (sizeof(PixelSums) + (with_aovs ? sizeof(AovSums) : 0));
+}
+
+FilmHeader Film::header() const {
+    return {identity_, resolution_, crop_, has_aovs(), passes_, dropped_, rejected_, words_};
+}
+
+std::string difference(FilmHeader const& a, FilmHeader const& b) {
+    std::string text;
+    auto const hold = [&](std::string const& what, std::string const& left, std::string const& right) {
+        if (left == right) return;
+        text += (text.empty() ? "" : "; ") + what + " is " + left + " in one and " + right + " in the other";
+    };
+    if (a.identity.scene_hash != b.identity.scene_hash)
+        text = "they show different scenes: a file of the scene was changed, or it is another one";
+    hold("--size", size_text(a), size_text(b));
+    if (a.resolution == b.resolution) hold("--crop", crop_text(a), crop_text(b));
+    hold("--seed", std::to_string(a.identity.seed), std::to_string(b.identity.seed));
+    hold("--aovs", a.aovs ? "given" : "left out", b.aovs ? "given" : "left out");
+    for (auto const& [option, value] : a.words) {
+        auto const other = b.words.find(option);
+        if (other != b.words.end()) hold(option, value, other->second);
+    }
+    if (text.empty() && !(a.identity == b.identity))
+        text = "they were rendered with different settings (film, filter, sampler or integrator)";
+    return text;
 }
 
 void Film::add_aov(int x, int y, std::uint64_t pass, AovSample const& sample, float weight) {
@@ -92,16 +120,17 @@ void merge_into(Film& a, Film const& b) {
         a = b;
         return;
     }
-    require_same_render(a.identity_, b.identity_);
-    if (a.resolution_ != b.resolution_ || a.crop_ != b.crop_)
-        refuse("they cover different parts of the picture");
-    if (a.has_aovs() != b.has_aovs()) refuse("only one of them has the layers of the first hit");
+    if (std::string const how = difference(a.header(), b.header()); !how.empty())
+        refuse(how + "; render again with the options of the other");
     PassSet const common = a.passes_.intersection(b.passes_);
-    if (!common.empty()) refuse("both hold passes " + common.text() + ", and a pass counts once");
+    if (!common.empty())
+        refuse("both hold passes " + common.text() +
+               ", and a pass counts once; leave one out, or render other --passes");
     for (std::size_t i = 0; i < a.pixels_.size(); ++i) add(a.pixels_[i], b.pixels_[i]);
     for (std::size_t i = 0; i < a.aovs_.size(); ++i) add(a.aovs_[i], b.aovs_[i]);
     a.passes_.insert(b.passes_);
     a.dropped_ += b.dropped_;
+    a.rejected_ += b.rejected_;
 }
 
 Film merge(Film a, Film const& b) {

@@ -5,14 +5,16 @@
 #include "math/error.h"
 #include "planes.h"
 
+#include <bit>
 #include <charconv>
 
 namespace nephroid {
 
 namespace {
 
-constexpr char const* kVersion = "1";
+constexpr char const* kVersion = "2";
 std::string const kPrefix = "film.";
+std::string const kWords = "nephroid.option ";
 
 std::string hex(std::uint64_t v) {
     std::string text(16, '0');
@@ -41,41 +43,16 @@ std::uint64_t number(ExrFile const& file, std::string const& name, std::filesyst
     return n;
 }
 
-std::vector<std::uint32_t> const& plane(ExrFile const& file, std::string const& name,
-                                        std::filesystem::path const& path) {
-    ExrChannel const* channel = file.find(kPrefix + name);
-    if (!channel || channel->type != ExrChannel::Type::Uint)
-        refuse(path, "the film is damaged: channel " + kPrefix + name + " is missing; use another copy");
-    return channel->uints;
-}
-
-void add_plane(ExrFile& file, std::string const& name, std::vector<std::uint32_t> values) {
-    file.channels.push_back(
-        {.name = kPrefix + name, .type = ExrChannel::Type::Uint, .uints = std::move(values)});
-}
-
-template <class Sums, std::size_t N>
-void write_words(ExrFile& file, std::array<char const*, N> const& names, std::vector<Sums> const& sums) {
+/// The halves of each word as planes of the file, where they lie in the sums: nothing is copied.
+static_assert(std::endian::native == std::endian::little);
+template <class Plane, class Sums, std::size_t N>
+void add_planes(std::vector<Plane>& planes, std::array<char const*, N> const& names, Sums& sums) {
+    using Byte = std::remove_reference_t<decltype(*Plane::base)>;
+    auto* const base = reinterpret_cast<Byte*>(sums.data());
     for (std::size_t k = 0; k < N; ++k) {
-        std::vector<std::uint32_t> hi(sums.size()), lo(sums.size());
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            std::uint64_t const w = get_word(sums[i], k);
-            hi[i] = static_cast<std::uint32_t>(w >> 32);
-            lo[i] = static_cast<std::uint32_t>(w);
-        }
-        add_plane(file, std::string(names[k]) + ".hi", std::move(hi));
-        add_plane(file, std::string(names[k]) + ".lo", std::move(lo));
-    }
-}
-
-template <class Sums, std::size_t N>
-void read_words(ExrFile const& file, std::array<char const*, N> const& names, std::vector<Sums>& sums,
-                std::filesystem::path const& path) {
-    for (std::size_t k = 0; k < N; ++k) {
-        auto const& hi = plane(file, std::string(names[k]) + ".hi", path);
-        auto const& lo = plane(file, std::string(names[k]) + ".lo", path);
-        for (std::size_t i = 0; i < sums.size(); ++i)
-            set_word(sums[i], k, (std::uint64_t{hi[i]} << 32) | lo[i]);
+        std::string const name = kPrefix + names[k];
+        planes.push_back({name + ".lo", ExrChannel::Type::Uint, base + 8 * k, sizeof(sums[0])});
+        planes.push_back({name + ".hi", ExrChannel::Type::Uint, base + 8 * k + 4, sizeof(sums[0])});
     }
 }
 
@@ -85,15 +62,36 @@ void add_words(Checksum& sum, std::vector<Sums> const& sums, std::size_t words) 
         for (std::size_t k = 0; k < words; ++k) sum.word(get_word(s, k));
 }
 
-/// What the EXR reader of the image room is ready to read; a film that could not be read again must not be written.
-void require_readable_size(std::filesystem::path const& path, ExrFile const& file) {
-    std::int64_t bytes = 0;
-    for (ExrChannel const& c : file.channels) bytes += c.type == ExrChannel::Type::Half ? 2 : 4;
-    bytes *= std::int64_t{file.width} * file.height;
-    if (bytes > kMaxImageBytes)
-        throw Error(ErrorKind::Limit,
-                    path.string() + ": the film would take " + std::to_string(bytes >> 20) +
-                        " MiB, and 2048 MiB is the most: render it in several crop windows");
+FilmHeader header_of(ExrFile const& file, std::filesystem::path const& path) {
+    if (std::string const version = attribute(file, "film", path); version != kVersion)
+        refuse(path, "is a film of version " + version + ", and only version " + kVersion +
+                         " is known: use the program that wrote it");
+    FilmHeader h;
+    h.identity = {attribute(file, "scene", path), attribute(file, "settings", path),
+                  number(file, "seed", path)};
+    h.resolution = {file.display_width, file.display_height};
+    h.crop = {file.data_x0, file.data_x0 + file.width, file.data_y0, file.data_y0 + file.height};
+    h.aovs = number(file, "aovs", path) != 0;
+    h.passes = PassSet::parse(attribute(file, "passes", path));
+    h.dropped = number(file, "dropped", path);
+    h.rejected = number(file, "rejected", path);
+    for (auto const& [name, value] : file.attributes)
+        if (name.starts_with(kWords)) h.words[name.substr(kWords.size())] = value;
+    return h;
+}
+
+/// Calls f(); whatever is wrong with the file is said with its name, as bad input.
+template <class F>
+auto reading_film(std::filesystem::path const& path, F&& f) {
+    try {
+        return f();
+    } catch (Error const& e) {
+        if (e.kind() == ErrorKind::Io) throw;
+        // A damaged header may claim any size: to the user that is a bad file, not a limit.
+        std::string const message = e.what();
+        if (message.starts_with(path.string())) throw Error(ErrorKind::Input, message);
+        refuse(path, "the film is damaged: " + message);
+    }
 }
 
 }  // namespace
@@ -109,6 +107,7 @@ class FilmFile {
         sum.word(film.identity_.seed);
         sum.text(film.passes_.text());
         sum.word(film.dropped_);
+        sum.word(film.rejected_);
         for (int const v : {film.resolution_.x, film.resolution_.y, film.crop_[0], film.crop_[1],
                             film.crop_[2], film.crop_[3], int{film.has_aovs()}})
             sum.word(static_cast<std::uint64_t>(v));
@@ -118,61 +117,70 @@ class FilmFile {
         return hex(sum.value());
     }
 
-    static ExrFile encode(Film const& film, DevelopSettings const& settings) {
+    static void write(std::filesystem::path const& path, Film const& film, DevelopSettings const& settings) {
         ExrFile file = develop_beauty_exr(film, settings);
         file.attributes["nephroid.film"] = kVersion;
         file.attributes["nephroid.aovs"] = film.has_aovs() ? "1" : "0";
         file.attributes["nephroid.checksum"] = checksum(film);
-        write_words(file, kPixelWords, film.pixels_);
-        if (film.has_aovs()) {
-            write_words(file, kAovWords, film.aovs_);
-            std::vector<std::uint32_t> ids;
-            ids.reserve(film.aovs_.size());
-            for (AovSums const& sums : film.aovs_) ids.push_back(sums.material);
-            add_plane(file, "material.id", std::move(ids));
-        }
-        return file;
+        for (auto const& [option, value] : film.words_) file.attributes[kWords + option] = value;
+        std::vector<ExrSourcePlane> planes;
+        add_film(planes, film);
+        write_exr(path, file, planes, ExrCompression::Fast);
     }
 
-    static Film decode(ExrFile const& file, std::filesystem::path const& path) {
-        if (std::string const version = attribute(file, "film", path); version != kVersion)
-            refuse(path, "is a film of version " + version + ", and only version " + kVersion +
-                             " is known: use the program that wrote it");
-        FilmIdentity identity{attribute(file, "scene", path), attribute(file, "settings", path),
-                              number(file, "seed", path)};
-        std::array<int, 4> const crop{file.data_x0, file.data_x0 + file.width, file.data_y0,
-                                      file.data_y0 + file.height};
-        Film film({file.display_width, file.display_height}, crop, number(file, "aovs", path) != 0,
-                  std::move(identity));
-        film.passes_ = PassSet::parse(attribute(file, "passes", path));
-        film.dropped_ = number(file, "dropped", path);
-        read_words(file, kPixelWords, film.pixels_, path);
-        if (film.has_aovs()) {
-            read_words(file, kAovWords, film.aovs_, path);
-            auto const& ids = plane(file, "material.id", path);
-            for (std::size_t i = 0; i < film.aovs_.size(); ++i) film.aovs_[i].material = ids[i];
-        }
+    static Film read(std::filesystem::path const& path) {
+        Film film;
+        ExrFile const file = read_exr(path, [&](ExrFile const& header) {
+            FilmHeader h = header_of(header, path);
+            film = Film(h.resolution, h.crop, h.aovs, h.identity);
+            film.passes_ = std::move(h.passes);
+            film.dropped_ = h.dropped;
+            film.rejected_ = h.rejected;
+            film.words_ = std::move(h.words);
+            std::vector<ExrTargetPlane> planes;
+            add_film(planes, film);
+            for (ExrTargetPlane const& plane : planes) {
+                ExrChannel const* channel = header.find(plane.name);
+                if (!channel || channel->type != ExrChannel::Type::Uint)
+                    refuse(path,
+                           "the film is damaged: channel " + plane.name + " is missing; use another copy");
+            }
+            return planes;
+        });
         if (checksum(film) != attribute(file, "checksum", path))
             refuse(path, "the film is damaged: its checksum does not fit; use another copy");
         return film;
     }
+
+  private:
+    template <class Plane, class F>
+    static void add_film(std::vector<Plane>& planes, F& film) {
+        using Byte = std::remove_reference_t<decltype(*Plane::base)>;
+        add_planes(planes, kPixelWords, film.pixels_);
+        if (!film.has_aovs()) return;
+        add_planes(planes, kAovWords, film.aovs_);
+        planes.push_back({kPrefix + "material.id", ExrChannel::Type::Uint,
+                          reinterpret_cast<Byte*>(&film.aovs_.front().material), sizeof(AovSums)});
+    }
 };
 
 void write_film(std::filesystem::path const& path, Film const& film, DevelopSettings const& settings) {
-    ExrFile const file = FilmFile::encode(film, settings);
-    require_readable_size(path, file);
-    write_exr(path, file);
+    FilmFile::write(path, film, settings);
 }
 
 Film read_film(std::filesystem::path const& path) {
+    return reading_film(path, [&] { return FilmFile::read(path); });
+}
+
+FilmHeader read_film_header(std::filesystem::path const& path) {
+    return reading_film(path, [&] { return header_of(read_exr_header(path), path); });
+}
+
+bool is_film(std::filesystem::path const& path) {
     try {
-        return FilmFile::decode(read_exr(path), path);
-    } catch (Error const& e) {
-        if (e.kind() == ErrorKind::Io) throw;
-        // A damaged header may claim any size: to the user that is a bad file, not a limit.
-        std::string const message = e.what();
-        if (message.starts_with(path.string())) throw Error(ErrorKind::Input, message);
-        refuse(path, "the film is damaged: " + message);
+        return read_exr_header(path).attributes.contains("nephroid.film");
+    } catch (Error const&) {
+        return false;
     }
 }
 

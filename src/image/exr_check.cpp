@@ -77,7 +77,8 @@ void read_attribute(Cursor& in, Part& part, std::string const& attribute, std::s
 /// What compression can shrink at most, generously; beyond it the data cannot be there. DWA has no useful bound.
 std::int64_t largest_ratio(int compression) { return compression >= 8 ? 1 << 20 : 4096; }
 
-void check_part(Part const& part, std::size_t bytes_left, std::string const& path) {
+void check_part(Part const& part, std::uint64_t bytes_left, std::int64_t most_bytes,
+                std::string const& path) {
     if (!part.has_data || !part.has_display) fail(path, "the EXR header names no data or display window");
     for (auto const& window : {part.data, part.display})
         for (std::int32_t const v : window)
@@ -86,7 +87,15 @@ void check_part(Part const& part, std::size_t bytes_left, std::string const& pat
     std::int64_t const width = std::int64_t{part.data[2]} - part.data[0] + 1;
     std::int64_t const height = std::int64_t{part.data[3]} - part.data[1] + 1;
     if (part.bytes_per_pixel == 0) fail(path, "the EXR file has no channels");
-    check_size(path, width, height, part.bytes_per_pixel, 1);
+    check_size(path, width, height, 1, 1);
+    // Lines are unpacked by up to 256 at once, whatever the whole picture may take.
+    if (width * std::min<std::int64_t>(height, 256) > kMaxImageBytes / part.bytes_per_pixel ||
+        width * height > most_bytes / part.bytes_per_pixel)
+        fail(path,
+             "the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
+                 std::to_string(part.bytes_per_pixel) + " bytes, more than " +
+                 std::to_string(most_bytes >> 30) + " GiB; scale it down",
+             ErrorKind::Limit);
     auto const left = static_cast<std::int64_t>(bytes_left);
     std::int64_t chunks = (height + 255) / 256;  // DWAB packs 256 lines, nothing packs more
     if (part.tiled) {
@@ -105,8 +114,8 @@ void check_part(Part const& part, std::size_t bytes_left, std::string const& pat
 
 }  // namespace
 
-void check_exr_headers(Bytes file, std::string const& path) {
-    Cursor in(file, path);
+void check_exr_headers(Bytes head, std::uint64_t size, std::int64_t most_bytes, std::string const& path) {
+    Cursor in(head, path);
     in.take(4);  // the magic number, seen already
     std::uint32_t const version = u32(in);
     if ((version & 0xffu) != 2) fail(path, "has an unknown version of OpenEXR");
@@ -122,7 +131,7 @@ void check_exr_headers(Bytes file, std::string const& path) {
         parts.push_back(part);
     } while (multi);
     if (parts.empty()) fail(path, "the EXR file has no parts");
-    for (Part const& part : parts) check_part(part, in.left(), path);
+    for (Part const& part : parts) check_part(part, size - in.at(), most_bytes, path);
 }
 
 }  // namespace nephroid::codec

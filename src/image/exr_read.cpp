@@ -131,12 +131,15 @@ Image decode_picture(Bytes file, std::string const& path) {
     return image;
 }
 
-ExrFile decode_planes(Bytes file, std::string const& path) {
-    ExrSource source(file, path);
-    Imf::MultiPartInputFile input(source, 0);
-    Imf::Header const& header = input.header(0);
-    auto const data = header.dataWindow();
-    auto const display = header.displayWindow();
+ExrChannel::Type type_of(Imf::Channel const& channel) {
+    return channel.type == Imf::UINT   ? ExrChannel::Type::Uint
+           : channel.type == Imf::HALF ? ExrChannel::Type::Half
+                                       : ExrChannel::Type::Float;
+}
+
+ExrFile header_of(Imf::Header const& header) {
+    auto const& data = header.dataWindow();
+    auto const& display = header.displayWindow();
     ExrFile result;
     result.width = data.max.x - data.min.x + 1;
     result.height = data.max.y - data.min.y + 1;
@@ -151,41 +154,39 @@ ExrFile decode_planes(Bytes file, std::string const& path) {
         if (auto const* text = dynamic_cast<Imf::StringAttribute const*>(&i.attribute()))
             if (std::strcmp(i.name(), "type") != 0 && std::strcmp(i.name(), "name") != 0)
                 result.attributes[i.name()] = text->value();
+    for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+        result.channels.push_back({.name = i.name(), .type = type_of(i.channel())});
+    return result;
+}
 
-    std::size_t const n = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
-    // Halves come back as floats, which hold each of them exactly.
-    std::size_t total = 0;
-    for (auto i = header.channels().begin(); i != header.channels().end(); ++i) total += 4 * n;
-    if (total > 4 * static_cast<std::size_t>(kMaxImageBytes))
-        fail(path, "the EXR planes need more than 8 GiB", ErrorKind::Limit);
+Imf::PixelType pixel_type(ExrChannel::Type type) {
+    return type == ExrChannel::Type::Uint   ? Imf::UINT
+           : type == ExrChannel::Type::Half ? Imf::HALF
+                                            : Imf::FLOAT;
+}
+
+void read_planes(Imf::MultiPartInputFile& input, std::span<ExrTargetPlane const> planes,
+                 std::string const& path) {
+    Imf::Header const& header = input.header(0);
+    auto const window = header.dataWindow();
+    std::size_t const width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
     Imf::FrameBuffer frame;
-    for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
-        require_full_resolution(i.channel(), i.name(), path);
-        ExrChannel& channel = result.channels.emplace_back();
-        channel.name = i.name();
-        bool const integers = i.channel().type == Imf::UINT;
-        channel.type =
-            integers ? ExrChannel::Type::Uint
-                     : (i.channel().type == Imf::HALF ? ExrChannel::Type::Half : ExrChannel::Type::Float);
-        if (integers)
-            channel.uints.resize(n);
-        else
-            channel.data.resize(n);
-        void* const base =
-            integers ? static_cast<void*>(channel.uints.data()) : static_cast<void*>(channel.data.data());
-        frame.insert(channel.name, Imf::Slice::Make(integers ? Imf::UINT : Imf::FLOAT, base, data, 4,
-                                                    4 * static_cast<std::size_t>(result.width)));
+    for (ExrTargetPlane const& plane : planes) {
+        Imf::Channel const* channel = header.channels().findChannel(plane.name);
+        if (!channel) fail(path, "channel '" + plane.name + "' is missing");
+        require_full_resolution(*channel, plane.name, path);
+        frame.insert(plane.name, Imf::Slice::Make(pixel_type(plane.type), plane.base, window, plane.stride,
+                                                  plane.stride * width));
     }
     Imf::InputPart part(input, 0);
     part.setFrameBuffer(frame);
-    part.readPixels(data.min.y, data.max.y);
-    return result;
+    part.readPixels(window.min.y, window.max.y);
 }
 
 }  // namespace
 
 Image decode_exr(Bytes file, std::string const& path) {
-    check_exr_headers(file, path);
+    check_exr_headers(file, file.size(), kMaxImageBytes, path);
     return translating_exr_errors(path, [&] { return decode_picture(file, path); });
 }
 
@@ -197,13 +198,64 @@ ExrChannel const* ExrFile::find(std::string const& name) const {
     return found == channels.end() ? nullptr : &*found;
 }
 
-ExrFile read_exr(std::filesystem::path const& path) {
-    std::vector<std::byte> const file = read_file(path);
+namespace {
+
+constexpr std::int64_t kMaxPlaneBytes = std::int64_t{1} << 36;
+constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
+
+/// Calls f(input, header) with the first part of a file whose headers can be trusted not to lie about sizes.
+template <class F>
+ExrFile with_exr(std::filesystem::path const& path, std::int64_t most_bytes, F&& f) {
     std::string const name = path.string();
+    codec::ExrFileSource source(path);
+    std::vector<std::byte> const head = source.head(kMaxHeaderBytes);
     constexpr unsigned char kMagic[4] = {0x76, 0x2f, 0x31, 0x01};
-    if (file.size() < 4 || std::memcmp(file.data(), kMagic, 4) != 0) codec::fail(name, "is no EXR file");
-    codec::check_exr_headers(file, name);
-    return codec::translating_exr_errors(name, [&] { return codec::decode_planes(file, name); });
+    if (head.size() < 4 || std::memcmp(head.data(), kMagic, 4) != 0) codec::fail(name, "is no EXR file");
+    codec::check_exr_headers(head, source.size(), most_bytes, name);
+    return codec::translating_exr_errors(name, [&] {
+        Imf::MultiPartInputFile input(source, 0);
+        ExrFile result = codec::header_of(input.header(0));
+        f(input, result);
+        return result;
+    });
+}
+
+std::size_t pixels_of(ExrFile const& file) {
+    return static_cast<std::size_t>(file.width) * static_cast<std::size_t>(file.height);
+}
+
+}  // namespace
+
+ExrFile read_exr_header(std::filesystem::path const& path) {
+    return with_exr(path, kMaxPlaneBytes, [](auto&, auto&) {});
+}
+
+ExrFile read_exr(std::filesystem::path const& path,
+                 std::function<std::vector<ExrTargetPlane>(ExrFile const& header)> const& places) {
+    return with_exr(path, kMaxPlaneBytes, [&](Imf::MultiPartInputFile& input, ExrFile const& header) {
+        codec::read_planes(input, places(header), path.string());
+    });
+}
+
+ExrFile read_exr(std::filesystem::path const& path) {
+    return with_exr(path, kMaxImageBytes, [&](Imf::MultiPartInputFile& input, ExrFile& file) {
+        // Halves come back as floats, which hold each of them exactly.
+        std::size_t const n = pixels_of(file);
+        if (4 * n * file.channels.size() > 4 * static_cast<std::size_t>(kMaxImageBytes))
+            codec::fail(path.string(), "the EXR planes need more than 8 GiB", ErrorKind::Limit);
+        std::vector<ExrTargetPlane> planes;
+        for (ExrChannel& c : file.channels) {
+            bool const integers = c.type == ExrChannel::Type::Uint;
+            if (integers)
+                c.uints.resize(n);
+            else
+                c.data.resize(n);
+            void* const base = integers ? static_cast<void*>(c.uints.data()) : c.data.data();
+            planes.push_back({c.name, integers ? ExrChannel::Type::Uint : ExrChannel::Type::Float,
+                              static_cast<std::byte*>(base), 4});
+        }
+        codec::read_planes(input, planes, path.string());
+    });
 }
 
 }  // namespace nephroid

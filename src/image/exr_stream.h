@@ -2,11 +2,13 @@
 #pragma once
 
 #include "codecs.h"
+#include "image/file.h"
 
 #include <OpenEXR/ImfIO.h>
 
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -34,22 +36,50 @@ class ExrSource : public Imf::IStream {
     std::size_t at_ = 0;
 };
 
-class ExrSink : public Imf::OStream {
+/// A file that is read piece by piece: films may be larger than what one would keep in memory twice.
+class ExrFileSource : public Imf::IStream {
   public:
-    explicit ExrSink(std::string const& path) : OStream(path.c_str()) {}
-    void write(char const in[], int n) override {
-        auto const count = static_cast<std::size_t>(n);
-        if (at_ + count > data.size()) data.resize(at_ + count);
-        std::memcpy(data.data() + at_, in, count);
-        at_ += count;
-    }
-    std::uint64_t tellp() override { return at_; }
-    void seekp(std::uint64_t position) override { at_ = position; }
-
-    std::vector<std::byte> data;
+    /// Throws Error(Io) like read_file().
+    explicit ExrFileSource(std::filesystem::path const& path);
+    ~ExrFileSource() override;
+    bool read(char out[], int n) override;
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+    void clear() override {}
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    /// The first bytes, for a look at the header.
+    [[nodiscard]] std::vector<std::byte> head(std::size_t most);
 
   private:
-    std::size_t at_ = 0;
+    int fd_ = -1;
+    std::uint64_t at_ = 0, size_ = 0;
+};
+
+/// Gathers small writes. What fails is kept by the file and said by its commit().
+class ExrSink : public Imf::OStream {
+  public:
+    ExrSink(std::string const& path, NewFile& file) : OStream(path.c_str()), file_(&file) {}
+    void write(char const in[], int n) override {
+        auto const bytes = std::as_bytes(std::span(in, static_cast<std::size_t>(n)));
+        buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+        at_ += bytes.size();
+        if (buffer_.size() >= (std::size_t{1} << 20)) flush();
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t position) override {
+        flush();
+        file_->seek(at_ = position);
+    }
+    void flush() {
+        bool const good = file_->write(buffer_);
+        buffer_.clear();
+        if (!good) throw std::runtime_error("the file cannot be written");
+    }
+
+  private:
+    NewFile* file_;
+    std::vector<std::byte> buffer_;
+    std::uint64_t at_ = 0;
 };
 
 /// Calls f(); what OpenEXR throws becomes an Error of this file.
@@ -67,7 +97,7 @@ auto translating_exr_errors(std::string const& path, F&& f) {
 }
 
 /// Looks through all headers before OpenEXR does, because OpenEXR allocates what they ask for: sizes, windows, channels,
-/// tables of offsets that must fit in the file. Refuses deep files.
-void check_exr_headers(Bytes file, std::string const& path);
+/// tables of offsets that must fit in the file. Refuses deep files. `head` are the first bytes of a file of `size`.
+void check_exr_headers(Bytes head, std::uint64_t size, std::int64_t most_bytes, std::string const& path);
 
 }  // namespace nephroid::codec

@@ -1,4 +1,4 @@
-// Writing OpenEXR: encoded in memory, then written at once.
+// Writing OpenEXR, line by line into the file that takes the place of the old one in the end.
 #include "exr_stream.h"
 #include "image/file.h"
 #include "image/write.h"
@@ -31,9 +31,9 @@ Imf::PixelType pixel_type(ExrChannel::Type type) {
     return Imf::UINT;
 }
 
-void check(ExrFile const& file, std::string const& path) {
+void check(ExrFile const& file, bool alone, std::string const& path) {
     codec::check_size(path, file.width, file.height, 1, 1);
-    if (file.channels.empty()) codec::fail(path, "cannot write an EXR file without channels");
+    if (file.channels.empty() && alone) codec::fail(path, "cannot write an EXR file without channels");
     std::size_t const n = static_cast<std::size_t>(file.width) * static_cast<std::size_t>(file.height);
     for (ExrChannel const& c : file.channels) {
         std::size_t const have = c.type == ExrChannel::Type::Uint ? c.uints.size() : c.data.size();
@@ -43,7 +43,16 @@ void check(ExrFile const& file, std::string const& path) {
     }
 }
 
-Imf::Header make_header(ExrFile const& file) {
+std::vector<std::uint16_t> to_halves(std::vector<float> const& values) {
+    std::vector<std::uint16_t> plane(values.size());
+    std::transform(values.begin(), values.end(), plane.begin(), [](float v) {
+        return float_to_half(std::isfinite(v) ? clamp(v, -kLargestHalf, kLargestHalf) : v);
+    });
+    return plane;
+}
+
+Imf::Header make_header(ExrFile const& file, std::span<ExrSourcePlane const> more,
+                        ExrCompression compression) {
     Imath::Box2i const data(Imath::V2i(file.data_x0, file.data_y0),
                             Imath::V2i(file.data_x0 + file.width - 1, file.data_y0 + file.height - 1));
     Imath::Box2i display = data;
@@ -51,7 +60,8 @@ Imf::Header make_header(ExrFile const& file) {
         display = Imath::Box2i(
             Imath::V2i(file.display_x0, file.display_y0),
             Imath::V2i(file.display_x0 + file.display_width - 1, file.display_y0 + file.display_height - 1));
-    Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+    Imf::Header header(display, data, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
+                       compression == ExrCompression::Zip ? Imf::ZIP_COMPRESSION : Imf::RLE_COMPRESSION);
     for (auto const& [name, text] : file.attributes) header.insert(name, Imf::StringAttribute(text));
     if (file.chromaticities) {
         auto xy = [](Vec2 v) { return Imath::V2f(v.x, v.y); };
@@ -60,41 +70,54 @@ Imf::Header make_header(ExrFile const& file) {
     }
     for (ExrChannel const& c : file.channels)
         header.channels().insert(c.name, Imf::Channel(pixel_type(c.type)));
+    for (ExrSourcePlane const& plane : more)
+        header.channels().insert(plane.name, Imf::Channel(pixel_type(plane.type)));
     return header;
 }
 
 }  // namespace
 
-void write_exr(std::filesystem::path const& path, ExrFile const& file) {
+void write_exr(std::filesystem::path const& path, ExrFile const& file, std::span<ExrSourcePlane const> more,
+               ExrCompression compression) {
     std::string const name = path.string();
-    check(file, name);
-    codec::ExrSink sink(name);
-    codec::translating_exr_errors(name, [&] {
-        Imf::Header const header = make_header(file);
-        std::vector<std::vector<std::uint16_t>> halves;  // converted planes must live until they are written
-        halves.reserve(file.channels.size());
-        Imf::FrameBuffer frame;
-        for (ExrChannel const& c : file.channels) {
-            void const* base = c.type == ExrChannel::Type::Uint ? static_cast<void const*>(c.uints.data())
-                                                                : static_cast<void const*>(c.data.data());
-            std::size_t each = 4;
-            if (c.type == ExrChannel::Type::Half) {
-                auto& plane = halves.emplace_back(c.data.size());
-                std::transform(c.data.begin(), c.data.end(), plane.begin(), [](float v) {
-                    return float_to_half(std::isfinite(v) ? clamp(v, -kLargestHalf, kLargestHalf) : v);
-                });
-                base = plane.data();
-                each = 2;
+    check(file, more.empty(), name);
+    NewFile target(path);
+    try {
+        codec::translating_exr_errors(name, [&] {
+            Imf::Header const header = make_header(file, more, compression);
+            auto const& window = header.dataWindow();
+            std::vector<std::vector<std::uint16_t>>
+                halves;  // converted planes must live until they are written
+            halves.reserve(file.channels.size());
+            Imf::FrameBuffer frame;
+            auto const insert = [&](std::string const& channel, ExrChannel::Type type, void const* base,
+                                    std::size_t stride) {
+                frame.insert(channel, Imf::Slice::Make(pixel_type(type), base, window, stride,
+                                                       stride * static_cast<std::size_t>(file.width)));
+            };
+            for (ExrChannel const& c : file.channels) {
+                if (c.type == ExrChannel::Type::Half)
+                    insert(c.name, c.type, halves.emplace_back(to_halves(c.data)).data(), 2);
+                else
+                    insert(c.name, c.type,
+                           c.type == ExrChannel::Type::Uint ? static_cast<void const*>(c.uints.data())
+                                                            : c.data.data(),
+                           4);
             }
-            frame.insert(c.name, Imf::Slice::Make(pixel_type(c.type), base, header.dataWindow(), each,
-                                                  each * static_cast<std::size_t>(file.width)));
-        }
-        Imf::OutputFile output(sink, header, 0);
-        output.setFrameBuffer(frame);
-        output.writePixels(file.height);
-        // The file is complete when `output` is destroyed, which writes the table of offsets.
-    });
-    write_file_atomically(path, sink.data);
+            for (ExrSourcePlane const& plane : more) insert(plane.name, plane.type, plane.base, plane.stride);
+            codec::ExrSink sink(name, target);
+            {
+                Imf::OutputFile output(sink, header, 0);
+                output.setFrameBuffer(frame);
+                output.writePixels(file.height);
+                // The file is complete when `output` is destroyed, which writes the table of offsets.
+            }
+            sink.flush();
+        });
+    } catch (Error const&) {
+        if (!target.failed()) throw;
+    }
+    target.commit();  // says what failed
 }
 
 void write_exr(std::filesystem::path const& path, Image const& image) {

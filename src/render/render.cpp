@@ -6,6 +6,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -27,30 +30,54 @@ std::vector<Tile> tiles_of(std::array<int, 4> crop) {
     return tiles;
 }
 
-/// A tile's sums before a batch touched them, to go back to when the batch is abandoned.
+/// The sums before a batch touched them, to go back to when it is abandoned. In one piece, which the system gets back
+/// while a checkpoint is written.
 class Undo {
   public:
-    void keep(Film const& film, Tile const& t) {
-        for (int y = t.y0; y < t.y1; ++y)
-            for (int x = t.x0; x < t.x1; ++x) {
-                pixels_.push_back(film.pixel(x, y));
-                if (film.has_aovs()) aovs_.push_back(film.aov(x, y));
-            }
+    explicit Undo(std::size_t tiles) : kept_(tiles) {}
+    void begin(Film const& film) {
+        crop_ = film.crop();
+        std::fill(kept_.begin(), kept_.end(), char{0});
+        auto const n = static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
+        if (pixels_) return;
+        // Not set to anything: a tile writes its part before it reads it, and the pages come with that.
+        pixels_ = std::make_unique_for_overwrite<Plain<PixelSums>[]>(n);
+        if (film.has_aovs()) aovs_ = std::make_unique_for_overwrite<Plain<AovSums>[]>(n);
     }
-    void restore(Film& film, Tile const& t) const {
-        if (pixels_.empty()) return;
-        std::size_t i = 0;
-        for (int y = t.y0; y < t.y1; ++y)
-            for (int x = t.x0; x < t.x1; ++x, ++i) {
-                film.pixel(x, y) = pixels_[i];
-                if (film.has_aovs()) film.aov(x, y) = aovs_[i];
-            }
+    void keep(Film const& film, Tile const& t, std::size_t tile) {
+        for_each(t, [&](int x, int y, std::size_t i) {
+            std::memcpy(&pixels_[i], &film.pixel(x, y), sizeof(PixelSums));
+            if (aovs_) std::memcpy(&aovs_[i], &film.aov(x, y), sizeof(AovSums));
+        });
+        kept_[tile] = 1;
     }
-    void clear() { pixels_.clear(), aovs_.clear(); }
+    void restore(Film& film, Tile const& t, std::size_t tile) const {
+        if (!kept_[tile]) return;
+        for_each(t, [&](int x, int y, std::size_t i) {
+            std::memcpy(static_cast<void*>(&film.pixel(x, y)), &pixels_[i], sizeof(PixelSums));
+            if (aovs_) std::memcpy(static_cast<void*>(&film.aov(x, y)), &aovs_[i], sizeof(AovSums));
+        });
+    }
+    void release() { pixels_.reset(), aovs_.reset(); }
 
   private:
-    std::vector<PixelSums> pixels_;
-    std::vector<AovSums> aovs_;
+    template <class Sums>
+    struct Plain {
+        alignas(Sums) std::byte bytes[sizeof(Sums)];
+    };
+    template <class F>
+    void for_each(Tile const& t, F f) const {
+        auto const width = static_cast<std::size_t>(crop_[1] - crop_[0]);
+        for (int y = t.y0; y < t.y1; ++y)
+            for (int x = t.x0; x < t.x1; ++x)
+                f(x, y,
+                  static_cast<std::size_t>(y - crop_[2]) * width + static_cast<std::size_t>(x - crop_[0]));
+    }
+
+    std::array<int, 4> crop_{};
+    std::unique_ptr<Plain<PixelSums>[]> pixels_;
+    std::unique_ptr<Plain<AovSums>[]> aovs_;
+    std::vector<char> kept_;  // written by one thread each
 };
 
 /// One run of the loop. A batch is a range of passes; each tile adds them to its pixels in ascending order, so that neither
@@ -75,14 +102,16 @@ class Loop {
         for (PassRange const& range : missing.ranges()) {
             for (std::uint64_t next = range.begin; next < range.end;) {
                 if (stopped()) return finish(RenderEnd::Interrupted);
-                if (control_.seconds && since(start_) >= *control_.seconds)
+                // However short the time, there is one pass: a picture of none is black.
+                if (control_.seconds && result_.passes > 0 && since(start_) >= *control_.seconds)
                     return finish(RenderEnd::TimeLimit);
-                PassRange const batch{next, std::min(range.end, next + batch_size)};
+                PassRange const batch{next, next + std::min(range.end - next, batch_size)};
                 auto const t0 = Clock::now();
                 if (!render_batch(batch)) return finish(RenderEnd::Interrupted);
                 next = batch.end;
                 batch_size = next_size(batch.end - batch.begin, since(t0));
                 if (control_.on_checkpoint && since(last_checkpoint_) >= control_.checkpoint_seconds) {
+                    undo_.release();  // what encoding takes does not come on top of it
                     control_.on_checkpoint(film_);
                     last_checkpoint_ = Clock::now();
                 }
@@ -105,15 +134,14 @@ class Loop {
         return size;
     }
 
-    bool render_batch(PassRange batch) {
-        std::atomic<bool> abandoned{false};
-        std::atomic<std::uint64_t> dropped{0};
-        tiles_done_ = 0;
-        batch_ = batch;
+    void go_back() {
+        for (std::size_t i = 0; i < tiles_.size(); ++i) undo_.restore(film_, tiles_[i], i);
+    }
+
+    void render_tiles(PassRange batch, std::atomic<bool>& abandoned, std::atomic<std::uint64_t>& dropped) {
         tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
             Tile const& tile = tiles_[i];
-            undo_[i].clear();
-            undo_[i].keep(film_, tile);
+            undo_.keep(film_, tile, i);
             // Pass by pass, so that a signal is heard soon.
             for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) {
                 if (stopped()) {
@@ -126,17 +154,39 @@ class Loop {
             tiles_done_.fetch_add(1, std::memory_order_relaxed);
             report(false);
         });
+    }
+
+    bool render_batch(PassRange batch) {
+        std::atomic<bool> abandoned{false};
+        std::atomic<std::uint64_t> dropped{0};
+        tiles_done_ = 0;
+        batch_ = batch;
+        std::uint64_t const rejected = rejected_rays();
+        undo_.begin(film_);
+        try {
+            render_tiles(batch, abandoned, dropped);
+        } catch (...) {
+            // No pass throws, but memory may run out: the film must be what it says it is.
+            go_back();
+            throw;
+        }
         if (abandoned) {
-            for (std::size_t i = 0; i < tiles_.size(); ++i) undo_[i].restore(film_, tiles_[i]);
+            go_back();
             return false;
         }
-        for (Undo& u : undo_) u.clear();
         film_.add_dropped(dropped);
+        film_.add_rejected(rejected_rays() - rejected);
         for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) film_.finish_pass(pass);
         result_.passes += batch.end - batch.begin;
         batch_ = {0, 0};
         report(result_.passes == wanted_);
         return true;
+    }
+
+    [[nodiscard]] std::uint64_t rejected_rays() const {
+        std::uint64_t n = 0;
+        for (RayStats const& s : stats_) n += s.rejected;
+        return n;
     }
 
     void report(bool now) {
@@ -158,6 +208,7 @@ class Loop {
         p.fraction = wanted_ > 0 ? done / static_cast<double>(wanted_) : 1.0;
         if (control_.seconds)
             p.fraction = std::max(p.fraction, std::min(1.0, since(start_) / *control_.seconds));
+        if (p.passes_done < wanted_) p.fraction = std::min(p.fraction, 0.999);  // not done is not 100%
         p.seconds = since(start_);
         control_.on_progress(p);
     }
@@ -173,7 +224,7 @@ class Loop {
     RenderControl const& control_;
     Film& film_;
     std::vector<Tile> tiles_;
-    std::vector<Undo> undo_;
+    Undo undo_;
     std::vector<RayStats> stats_;  // one a tile: never shared
     RenderResult result_;
     Clock::time_point start_ = Clock::now();
@@ -186,6 +237,8 @@ class Loop {
 };
 
 }  // namespace
+
+std::uint64_t render_bytes(std::uint64_t pixels, bool with_aovs) { return film_bytes(pixels, with_aovs); }
 
 RenderResult render(RenderJob const& job, RenderControl const& control, Film& film) {
     int const threads = control.threads > 0

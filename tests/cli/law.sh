@@ -36,11 +36,19 @@ same whole.film.exr resumed2.film.exr
 # Nothing left to do is good, too.
 render --spp 8 --resume c.film.exr -o resumed3.film.exr
 same whole.film.exr resumed3.film.exr
-# The newest generation damaged: the one before it serves.
+# The newest generation damaged: refused, and the one before it is offered by name. It survives being gone on from.
+render --spp 4 --resume c.film.exr --checkpoint c.film.exr -o four.pfm
+render --spp 5 --resume c.film.exr --checkpoint c.film.exr -o five.pfm
 printf garbage >c.film.exr
-run 0 render scene.pbrt --spp 8 --resume c.film.exr -o resumed4.film.exr --quiet
-says c.film.exr
+run 2 render scene.pbrt --quiet --spp 8 --resume c.film.exr -o bad.exr
+says "--resume c.film.exr.previous"
+absent bad.exr
+cp c.film.exr.previous before.film.exr
+render --spp 8 --resume c.film.exr.previous --checkpoint c.film.exr -o resumed4.film.exr
 same whole.film.exr resumed4.film.exr
+same before.film.exr c.film.exr.previous
+render --spp 8 --resume c.film.exr -o resumed5.film.exr
+same whole.film.exr resumed5.film.exr
 
 # What does not belong together is refused, and nothing is written.
 run 2 merge a.film.exr a.film.exr -o bad.exr
@@ -53,8 +61,18 @@ run 2 render scene.pbrt --quiet --resume other.film.exr -o bad.exr
 says --resume
 render --passes 4:8 --seed 1 -o seed.film.exr
 run 2 merge a.film.exr seed.film.exr -o bad.exr
+says "--seed is 0 in one and 1 in the other"
 render --passes 4:8 --set maxdepth=1 -o depth.film.exr
 run 2 merge a.film.exr depth.film.exr -o bad.exr
+says "--set maxdepth is 5 in one and 1 in the other"
+for different in "--size 16x12" "--color rgb" --aovs; do
+    render --passes 4:8 $different -o other2.film.exr
+    run 2 merge a.film.exr other2.film.exr -o bad.exr
+    says "${different%% *} is"
+    run 2 render scene.pbrt --quiet --resume other2.film.exr -o bad.exr
+    says "--resume other2.film.exr"
+    says "${different%% *} is"
+done
 run 2 merge a.film.exr whole.exr -o bad.exr
 says whole.exr
 head -c 2000 b.film.exr >short.film.exr
@@ -63,7 +81,22 @@ says short.film.exr
 run 4 merge a.film.exr b.film.exr -o nowhere/bad.exr
 absent bad.exr
 
-# A crop window holds the same pixels; a lone pass is the same in a long render.
+# A crop window holds the same pixels as the whole picture: rows 6 to 17, columns 8 to 27, of 3 floats each; PFM files
+# begin at the bottom.
+render --passes 0:3 -o all.pfm
+render --passes 0:3 --crop 8,6,28,18 -o crop.pfm
+tail -c $((32 * 24 * 12)) all.pfm >all.raw
+tail -c $((20 * 12 * 12)) crop.pfm >crop.raw
+for row in {17..6}; do
+    tail -c +$((((23 - row) * 32 + 8) * 12 + 1)) all.raw | head -c $((20 * 12))
+done >cut.raw
+same crop.raw cut.raw
+# Its film goes with films of the same window only, and the refusal says so.
+render --passes 3:5 --crop 8,6,28,18 -o crop.film.exr
+run 2 merge a.film.exr crop.film.exr -o bad.exr
+says "--crop"
+
+# A lone pass is the same in a long render.
 render --passes 3:4 -o p.pfm
 render --passes 3:4 --spp 100000 -o q.pfm
 same p.pfm q.pfm

@@ -18,6 +18,9 @@ for option in --spp --time --integrator --set --size --crop --color --seed --thr
 done
 run 2
 run 2 rendre scene.pbrt
+says '"rendre" is no command; did you mean "render"?'
+run 2 mrege
+says '"merge"'
 run 2 render
 says scene
 run 2 render scene.pbrt --bogus
@@ -33,15 +36,15 @@ bad() {
     (($(wc -c <err) < 400)) || fail "a message of $(wc -c <err) bytes for $option $value"
     silent out
 }
-for value in 0 -1 x 1.5 99999999999; do bad --spp "$value"; done
-for value in 5x -1s 0 s nan; do bad --time "$value"; done
+for value in 0 -1 x 1.5 99999999999; do bad --spp "$value" "whole number from 1 to 2147483647"; done
+for value in 5x -1s 0 s nan inf 1e999 1e308h; do bad --time "$value"; done
 bad --integrator foo path whitted direct
 for value in 10 0x10 -1x4 8x8x8 x8 8x axb; do bad --size "$value"; done
 for value in 1,2,3 10,10,5,5 100,100,200,200 0,0,33,24 -1,0,5,5 a; do bad --crop "$value"; done
 bad --color blue rgb spectral
 for value in x -1 1.5; do bad --seed "$value"; done
 for value in 0 2000 x -1; do bad --threads "$value"; done
-for value in 5:5 7:5 5 a:b -1:4 1:2:3 :4; do bad --passes "$value"; done
+for value in 5:5 7:5 5 a:b -1:4 1:2:3 :4 0:18446744073709551615 9223372036854775807:9223372036854775809; do bad --passes "$value"; done
 for value in 0 -3 x nan; do bad --checkpoint-every "$value"; done
 bad --log xml json
 for value in x nan inf; do bad --exposure "$value"; done

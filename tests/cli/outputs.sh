@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # outputs.sh PROGRAM: what a render writes and says, and what info and compare say of it.
+shared=$(realpath -m "${NEPHROID_SHARED:-$(dirname "$0")/../../../shared}")
 source "$(dirname "$0")/lib.sh"
 
 # Every kind of picture; stdout carries their paths and nothing else.
@@ -79,7 +80,50 @@ run 0 compare a.exr b.exr
 run 0 render scene.pbrt -o c.exr --quiet --size 8x8
 run 2 compare a.exr c.exr
 says "same size"
-rm a.exr b.exr c.exr
+# Films compare like the pictures in them, and Welch's test needs no certain spelling.
+run 0 render scene.pbrt -o a.film.exr -o a.EXR --quiet --spp 8
+run 0 render scene.pbrt -o b.film.exr --quiet --spp 8 --seed 5
+for pair in "a.exr b.exr" "a.film.exr b.film.exr" "a.EXR b.film.exr"; do
+    # shellcheck disable=SC2086
+    run 0 compare $pair
+    prints Welch
+done
+# Parts of a picture that lie elsewhere are not the same part.
+run 0 render scene.pbrt -o b.exr --quiet --crop 0,0,8,8
+run 0 render scene.pbrt -o c.exr --quiet --crop 8,0,16,8
+run 2 compare b.exr c.exr
+says "different parts"
+run 0 compare b.exr b.exr
+# Pixels that are no numbers are counted.
+{
+    printf 'PF\n2 1\n-1.0\n'
+    for _ in 1 2 3; do printf '\0\0\x80\x3f'; done
+    for _ in 1 2 3; do printf '\0\0\xc0\x7f'; done
+} >nan.pfm
+run 0 compare nan.pfm nan.pfm
+prints "1 pixel of nan.pfm"
+run 0 compare nan.pfm nan.pfm --json
+prints '"not_finite_a": 1'
+rm a.exr b.exr c.exr a.film.exr b.film.exr a.EXR nan.pfm
+
+# Pictures of luminance and subsampled chroma compare, too. There is none in the repository.
+yc=$shared/data/exr-conformance/Chromaticities/Rec709_YC.exr
+if [[ -e $yc ]]; then
+    run 0 compare "$yc" "$yc"
+    prints "RMSE            0"
+else
+    echo "no luminance-chroma picture in $shared: not looked at"
+fi
+
+# Halves end at 65504. What is brighter is written as floats, and that is said.
+sed 's/\[ 9 9 9 \]/[ 9e6 9e6 9e6 ]/' scene.pbrt >bright.pbrt
+run 0 render bright.pbrt -o a.exr -o a.pfm --quiet
+says "65504"
+run 0 compare a.exr a.pfm
+prints "RMSE            0"
+run 0 render bright.pbrt -o a.exr --float --quiet
+silent err
+rm a.exr a.pfm bright.pbrt
 
 # No lights: black, and said. Samples that overflow: dropped, counted, exit code 6, and the picture is there.
 grep -v LightSource scene.pbrt >dark.pbrt
@@ -95,6 +139,14 @@ sed 's/"infinite"/"infinite" "string filename" "sun.pfm"/' scene.pbrt >bright.pb
 run 6 render bright.pbrt -o e.exr
 says DROPPED
 exists e.exr
+# Also quietly, and in everything that is made of it.
+run 6 render bright.pbrt -o e.film.exr --quiet
+says "tainted"
+run 6 render bright.pbrt --resume e.film.exr -o e.exr --quiet
+says "tainted"
+run 6 merge e.film.exr -o e.exr
+says "tainted"
+rm e.film.exr
 # Light beyond all floats is refused with its place.
 sed 's/"rgb I" \[ 9 9 9 \]/"rgb I" [ 1e38 1e38 1e38 ] "float scale" 1e30/' scene.pbrt >bright.pbrt
 run 2 render bright.pbrt -o f.exr

@@ -151,3 +151,22 @@ TEST_CASE("pictures are written by extension, 8-bit ones exposed and encoded") {
     CHECK_THROWS_AS(write_picture(folder / "a.gif", film, {}), Error);
     CHECK_THROWS_AS(write_picture(folder / "a", film, {}), Error);
 }
+
+TEST_CASE("a layer that leaves the range of halves is written as floats, and said") {
+    TestFolder const folder;
+    Film film({4, 1}, {0, 4, 0, 1}, true, test_identity());
+    for (int x = 0; x < 4; ++x) {
+        film.add(x, 0, {1, x == 2 ? 70000.0f : 2.0f, 3}, 1);
+        film.add_aov(x, 0, 0, AovSample{}, 1);
+    }
+    film.finish_pass(0);
+    ExrFile const file = develop_exr(film, {});
+    for (char const* name : {"R", "G", "B"}) CHECK(file.find(name)->type == ExrChannel::Type::Float);
+    CHECK(file.find("albedo.R")->type == ExrChannel::Type::Half);
+    CHECK(write_picture(folder / "a.exr", film, {}) == std::vector<std::string>{"G"});
+    CHECK(read_exr(folder / "a.exr").find("G")->data[2] == 70000.0f);
+    // Nothing to say when floats were asked for, or halves are enough.
+    CHECK(write_picture(folder / "b.exr", film, {.half_float = false}).empty());
+    film.pixel(2, 0).rgb[1] = 65504;
+    CHECK(write_picture(folder / "c.exr", film, {}).empty());
+}

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -46,6 +47,26 @@ TEST_CASE("films come back from disk to the bit") {
     Film const none = empty_film();
     write_film(folder / "none.film.exr", none, {.half_float = false});
     CHECK(same_bits(read_film(folder / "none.film.exr"), none));
+}
+
+TEST_CASE("a film's header is read without its sums, and says what the film says") {
+    TestFolder const folder;
+    Film film = film_of({3, 9});
+    film.add_rejected(5);
+    film.describe({{"--color", "rgb"}, {"--set maxdepth", "5"}});
+    write_film(folder / "a", film, {});
+    for (FilmHeader const& h : {read_film_header(folder / "a"), read_film(folder / "a").header()}) {
+        CHECK(difference(h, film.header()).empty());
+        CHECK(h.passes == film.passes());
+        CHECK(h.dropped == film.dropped());
+        CHECK(h.rejected == 5);
+        CHECK(h.words == SettingWords{{"--color", "rgb"}, {"--set maxdepth", "5"}});
+        CHECK(h.aovs);
+    }
+    CHECK(is_film(folder / "a"));
+    write_picture(folder / "picture.exr", film, {});
+    CHECK_FALSE(is_film(folder / "picture.exr"));
+    CHECK_FALSE(is_film(folder / "nowhere"));
 }
 
 TEST_CASE("merging films from disk is merging them in memory") {
@@ -109,12 +130,12 @@ TEST_CASE("truncated and foreign files are refused by name") {
     refused(folder.path, "", ErrorKind::Io);
 
     ExrFile forged = read_exr(folder / "good");
-    forged.attributes["nephroid.film"] = "2";
+    forged.attributes["nephroid.film"] = "1";
     write_exr(folder / "version", forged);
-    refused(folder / "version", "version 2");
-    std::pair<char const*, char const*> const lies[] = {{"passes", "0:5"}, {"dropped", "99"}, {"seed", "8"},
-                                                        {"scene", "x"},    {"settings", "x"}, {"aovs", "0"},
-                                                        {"checksum", "0"}};
+    refused(folder / "version", "version 1");
+    std::pair<char const*, char const*> const lies[] = {
+        {"passes", "0:5"}, {"dropped", "99"}, {"rejected", "1"}, {"seed", "8"},
+        {"scene", "x"},    {"settings", "x"}, {"aovs", "0"},     {"checksum", "0"}};
     for (auto const& [name, value] : lies) {
         forged = read_exr(folder / "good");
         forged.attributes[std::string("nephroid.") + name] = value;
@@ -139,4 +160,17 @@ TEST_CASE("truncated and foreign files are refused by name") {
     forged.display_width = 3;
     write_exr(folder / "window", forged);
     refused(folder / "window", "crop window");
+}
+
+TEST_CASE("a film of more than 2 GiB is written and read like any other (NEPHROID_FULL)") {
+    if (!std::getenv("NEPHROID_FULL")) return;
+    TestFolder const folder;
+    Film film({5000, 4300}, {0, 5000, 0, 4300}, false, test_identity());
+    REQUIRE(film_bytes(5000 * 4300, false) > std::uint64_t{1900} << 20);
+    for (int y = 0; y < 4300; y += 7) film.add(y, y, {1, 2, static_cast<float>(y)}, 1);
+    film.finish_pass(0);
+    write_film(folder / "a", film, {});
+    Film const back = read_film(folder / "a");
+    CHECK(back.pixel(4200, 4200).rgb[2] == 4200);
+    CHECK(back.passes() == film.passes());
 }

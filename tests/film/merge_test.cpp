@@ -78,10 +78,11 @@ TEST_CASE("films of different renders and shared passes are refused, and nothing
     scene.scene_hash = "other", settings.settings_hash = "other", seed.seed = 8;
     refused(a, Film({12, 9}, {2, 10, 1, 8}, true, scene), "different scenes");
     refused(a, Film({12, 9}, {2, 10, 1, 8}, true, settings), "different settings");
-    refused(a, Film({12, 9}, {2, 10, 1, 8}, true, seed), "seeds 7 and 8");
-    refused(a, Film({12, 9}, {2, 9, 1, 8}, true, test_identity()), "different parts");
-    refused(a, Film({12, 10}, {2, 10, 1, 8}, true, test_identity()), "different parts");
-    refused(a, empty_film(false), "layers");
+    refused(a, Film({12, 9}, {2, 10, 1, 8}, true, seed), "--seed is 7 in one and 8 in the other");
+    refused(a, Film({12, 9}, {2, 9, 1, 8}, true, test_identity()), "--crop is 2,1,10,8 in one and 2,1,9,8");
+    refused(a, Film({12, 10}, {2, 10, 1, 8}, true, test_identity()),
+            "--size is 12x9 in one and 12x10 in the other");
+    refused(a, empty_film(false), "--aovs is given in one and left out in the other");
 }
 
 TEST_CASE("a sample that is not finite counts as black, and is reported") {
@@ -101,6 +102,26 @@ TEST_CASE("a sample that is not finite counts as black, and is reported") {
     float const huge = std::numeric_limits<float>::max();
     for (int i = 0; i < 1000; ++i) CHECK(film.add(0, 0, {huge, -huge, huge}, huge));
     CHECK(std::isfinite(film.pixel(0, 0).square[0]));
+}
+
+TEST_CASE("settings that differ are named by the option that sets them") {
+    FilmIdentity other = test_identity();
+    other.settings_hash = "another";
+    Film a = film_of({0, 3});
+    Film b({12, 9}, {2, 10, 1, 8}, true, other);
+    a.describe({{"--color", "rgb"}, {"--integrator", "path"}});
+    b.describe({{"--color", "spectral"}, {"--integrator", "path"}});
+    refused(a, b, "--color is rgb in one and spectral in the other");
+    CHECK(difference(a.header(), a.header()).empty());
+}
+
+TEST_CASE("rays that were refused are counted, and taint a sum") {
+    Film a = film_of({0, 1}), b = film_of({2, 3});
+    CHECK_FALSE(a.tainted());
+    b.add_rejected(3);
+    merge_into(a, b);
+    CHECK(a.rejected() == 3);
+    CHECK(a.tainted());
 }
 
 TEST_CASE("impossible films are refused") {

@@ -2,10 +2,12 @@
 #include "jpegs.h"
 #include "support.h"
 
+#include "image/peek.h"
 #include "image/read.h"
 #include "image/write.h"
 
 #include <doctest/doctest.h>
+#include <cstring>
 
 #include <cmath>
 
@@ -241,4 +243,56 @@ TEST_CASE("EXR: deep files are refused, and so are attributes that reserved name
     reserved.attributes["channels"] = "no";
     CHECK(error_of([&] { write_exr(folder / "b.exr", reserved); }) == ErrorKind::Input);
     CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
+}
+
+TEST_CASE("how large a picture is can be told without reading it") {
+    test::Folder const folder;
+    Image const image = test::gradient(PixelFormat::Float, 37, 21, 3);
+    for (char const* name : {"a.png", "a.jpg", "a.exr"}) {
+        write_image(folder / name, image);
+        CHECK(peek_size(folder / name) == std::array<std::int64_t, 2>{37, 21});
+    }
+    write_image(folder / "a.pfm", image);
+    CHECK_FALSE(peek_size(folder / "a.pfm").has_value());
+    CHECK_FALSE(peek_size(folder / "nowhere.png").has_value());
+    CHECK_FALSE(peek_size(folder.path()).has_value());
+    std::string const cut = read_text_file(folder / "a.jpg").substr(0, 100);
+    CHECK_FALSE(peek_size(test::write(folder, "cut.jpg", cut)).has_value());
+}
+
+TEST_CASE("planes are read to where they belong, and written from there") {
+    test::Folder const folder;
+    struct Pixel {
+        float value;
+        std::uint32_t number;
+    };
+    std::vector<Pixel> pixels(6 * 4);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = {static_cast<float>(i) / 3.0f, static_cast<std::uint32_t>(i) * 0x1234567u};
+    ExrFile file;
+    file.width = 6, file.height = 4, file.data_x0 = 3, file.data_y0 = -2;
+    auto const* const base = reinterpret_cast<std::byte const*>(pixels.data());
+    std::vector<ExrSourcePlane> const sources{{"value", ExrChannel::Type::Float, base, sizeof(Pixel)},
+                                              {"number", ExrChannel::Type::Uint, base + 4, sizeof(Pixel)}};
+    for (auto const compression : {ExrCompression::Zip, ExrCompression::Fast}) {
+        write_exr(folder / "a.exr", file, sources, compression);
+        std::vector<Pixel> back(pixels.size());
+        ExrFile const header = read_exr(folder / "a.exr", [&](ExrFile const& h) {
+            CHECK(h.channels.size() == 2);
+            auto* const to = reinterpret_cast<std::byte*>(back.data());
+            return std::vector<ExrTargetPlane>{{"value", ExrChannel::Type::Float, to, sizeof(Pixel)},
+                                               {"number", ExrChannel::Type::Uint, to + 4, sizeof(Pixel)}};
+        });
+        CHECK(header.data_x0 == 3);
+        CHECK(header.data_y0 == -2);
+        CHECK(std::memcmp(back.data(), pixels.data(), pixels.size() * sizeof(Pixel)) == 0);
+        CHECK(error_of([&] {
+                  (void)read_exr(folder / "a.exr", [&](ExrFile const&) {
+                      return std::vector<ExrTargetPlane>{
+                          {"absent", ExrChannel::Type::Float, reinterpret_cast<std::byte*>(back.data()), 8}};
+                  });
+              }) == ErrorKind::Input);
+    }
+    CHECK(read_exr_header(folder / "a.exr").width == 6);
+    CHECK(read_exr(folder / "a.exr").find("number")->uints[5] == pixels[5].number);
 }

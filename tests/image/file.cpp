@@ -6,6 +6,8 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace nephroid;
 using test::bytes;
@@ -76,4 +78,49 @@ TEST_CASE("permissions and symbolic links survive replacement") {
     CHECK(read_text_file(folder / "real") == "new");
     CHECK(fs::status(folder / "real").permissions() ==
           (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read));
+}
+
+TEST_CASE("a symbolic link whose target is not there yet gets its target") {
+    test::Folder const folder;
+    fs::create_directory(folder / "deep");
+    fs::create_symlink("deep/real", folder / "link");
+    write_file_atomically(folder / "link", bytes("new"));
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(read_text_file(folder / "deep/real") == "new");
+    CHECK(write_target(folder / "link") == folder / "deep/real");
+}
+
+TEST_CASE("what a killed writer leaves is used up by the next one that writes the same file") {
+    test::Folder const folder;
+    write_file_atomically(folder / "a", bytes("old"));
+    for (int i = 0; i < 3; ++i) {
+        pid_t const child = ::fork();
+        if (child == 0) {
+            NewFile file(folder / "a");
+            file.write(bytes("half of somethi"));
+            ::kill(::getpid(), SIGKILL);
+        }
+        int status = 0;
+        REQUIRE(::waitpid(child, &status, 0) == child);
+        CHECK(folder.entries() == 2);  // one leftover, however often
+    }
+    write_file_atomically(folder / "a", bytes("new"));
+    CHECK(read_text_file(folder / "a") == "new");
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("two writers of one file do not meet") {
+    test::Folder const folder;
+    {
+        NewFile one(folder / "a"), two(folder / "a");
+        one.write(bytes("one"));
+        two.write(bytes("two, longer"));
+        one.commit();
+        CHECK(read_text_file(folder / "a") == "one");
+        two.commit();
+    }
+    CHECK(read_text_file(folder / "a") == "two, longer");
+    CHECK(folder.entries() == 1);
+    { NewFile const given_up(folder / "a"); }
+    CHECK(folder.entries() == 1);
 }

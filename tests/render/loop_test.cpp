@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 
 using namespace nephroid;
@@ -176,4 +177,43 @@ TEST_CASE("what the film holds is not rendered again") {
     CHECK(again.passes == 0);
     CHECK(again.rays.rays[0] == 0);
     CHECK(differing_pixels(film, by_definition(slow.job, {0, 3})) == 0);
+}
+
+TEST_CASE("however short the time, there is one pass; and not done is not 100%") {
+    Slow const slow;
+    RenderControl control;
+    control.passes = {0, 1000};
+    control.seconds = 1e-9;
+    double most = 0;
+    control.on_progress = [&](RenderProgress const& p) { most = std::max(most, p.fraction); };
+    Film film = slow.job.make_film();
+    RenderResult const result = render(slow.job, control, film);
+    CHECK(result.end == RenderEnd::TimeLimit);
+    CHECK(result.passes == 1);
+    CHECK(most < 1);
+    CHECK(differing_pixels(film, by_definition(slow.job, {0, 1})) == 0);
+}
+
+TEST_CASE("pass numbers near the end of 64 bits do not wrap around") {
+    Slow const slow;
+    std::uint64_t const end = ~std::uint64_t{0};
+    Film film = slow.job.make_film();
+    RenderResult const result = add_passes(slow.job, {end - 4, end}, film);
+    CHECK(result.end == RenderEnd::Complete);
+    CHECK(result.passes == 4);
+    CHECK(film.passes().ranges() == std::vector<PassRange>{{end - 4, end}});
+}
+
+TEST_CASE("memory that runs out in the middle of a pass costs that pass alone") {
+    Slow const slow;
+    RenderControl control;
+    control.passes = {0, 1000};
+    control.threads = 2;
+    int calls = 0;
+    control.on_progress = [&](RenderProgress const&) {
+        if (++calls == 4) throw std::bad_alloc();
+    };
+    Film film = slow.job.make_film();
+    CHECK_THROWS_AS(render(slow.job, control, film), std::bad_alloc);
+    CHECK(differing_pixels(film, by_definition(slow.job, {0, film.passes().count()})) == 0);
 }

@@ -8,16 +8,17 @@
 
 namespace nephroid {
 
-/// Writes the film to `path`; the film that was there becomes `<path>.previous`. Throws Error(Io), and then `path` or
-/// `<path>.previous` is what it was.
-void write_checkpoint(std::filesystem::path const& path, Film const& film);
+/// Writes the film to `path`; the film that was there becomes `<path>.previous`, unless it is damaged: a whole generation
+/// never makes way for one that is not. `newest_is_whole`: the caller wrote `path` himself, so that there is no need to
+/// read it. Throws Error(Io), and then `path` and `<path>.previous` are what they were.
+void write_checkpoint(std::filesystem::path const& path, Film const& film, bool newest_is_whole = false);
 
-/// Which file a checkpoint came from.
-struct CheckpointSource {
-    std::filesystem::path file;
-    std::string problem;  // why it is not the newest one; empty when it is
-};
-/// The newest generation that is whole. Throws the error of `path` itself when none is.
-Film read_checkpoint(std::filesystem::path const& path, CheckpointSource* source = nullptr);
+/// The film at `path`. When it is missing or damaged, the error says which other generation could serve: that is for the
+/// user to decide, because passes are lost.
+Film read_checkpoint(std::filesystem::path const& path);
+
+/// The generation beside `path` that is whole and has the most passes; of the render of `like`, if that is given. Empty
+/// when there is none.
+std::filesystem::path other_generation(std::filesystem::path const& path, FilmHeader const* like = nullptr);
 
 }  // namespace nephroid

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace nephroid {
 
 struct DevelopSettings {
     bool half_float = true;
     float exposure = 0;                           // stops, for 8-bit pictures only
+    bool in_a_hurry = false;                      // EXR files may be larger if they are written sooner
     std::map<std::string, std::string> metadata;  // into the header of EXR files
 };
 
@@ -26,15 +28,22 @@ Image develop_variance(Film const& film);
 /// Every layer as EXR channels, named as pbrt-v4 and Mitsuba 3 name theirs: R G B; variance.R .G .B; and with AOVs
 /// albedo.R .G .B, N.X .Y .Z (geometric normal), Ns.X .Y .Z (shading normal), P.X .Y .Z (world position), Z (depth along
 /// the ray), material.id (uint, 0xFFFFFFFF = nothing hit). Variances, positions and depths are floats, for they leave the
-/// range of halves; the rest is half or float as the settings say. The header tells which passes of which render they are.
+/// range of halves; the rest is half or float as the settings say, and float where a number is too large for a half.
+/// The header tells which passes of which render they are.
 ExrFile develop_exr(Film const& film, DevelopSettings const& settings);
-/// Writes by extension: .exr, .png, .jpg/.jpeg, .pfm, .hdr; anything else is Error(Input).
-void write_picture(std::filesystem::path const& path, Film const& film, DevelopSettings const& settings);
+/// Writes by extension: .exr, .png, .jpg/.jpeg, .pfm, .hdr; anything else is Error(Input). Returns the first channels of
+/// those layers of an EXR file that were wanted as halves and had to become floats.
+std::vector<std::string> write_picture(std::filesystem::path const& path, Film const& film,
+                                       DevelopSettings const& settings);
 
 /// The film itself as an EXR file: the beauty as plain R G B for any viewer, and the exact bits of every sum as pairs of
-/// uint channels; identity, pass set and a checksum in the header.
+/// uint channels; identity, pass set and a checksum in the header. Run-length encoded, for a signal does not wait long.
 void write_film(std::filesystem::path const& path, Film const& film, DevelopSettings const& settings);
 /// Throws Error(Input) when the file is no film, is damaged (checksum) or of an unknown version.
 Film read_film(std::filesystem::path const& path);
+/// The same without the sums, and without a look at the checksum.
+FilmHeader read_film_header(std::filesystem::path const& path);
+/// Does the file say that it is a film, damaged or not?
+bool is_film(std::filesystem::path const& path);
 
 }  // namespace nephroid

@@ -52,6 +52,23 @@ struct FilmIdentity {
     std::uint64_t seed = 0;
     bool operator==(FilmIdentity const&) const = default;
 };
+/// Settings by the option that sets them ("--color" -> "rgb"): the hash says that two differ, these say how.
+using SettingWords = std::map<std::string, std::string>;
+
+/// All of a film but its sums.
+struct FilmHeader {
+    FilmIdentity identity;
+    Vec2i resolution{0, 0};
+    std::array<int, 4> crop{0, 0, 0, 0};
+    bool aovs = false;
+    PassSet passes;
+    std::uint64_t dropped = 0, rejected = 0;
+    SettingWords words;
+};
+/// How the renders of two films differ, in words; empty when they are the same. Passes do not count.
+std::string difference(FilmHeader const& a, FilmHeader const& b);
+/// Memory of a film of so many pixels.
+std::uint64_t film_bytes(std::uint64_t pixels, bool with_aovs);
 
 class Film {
   public:
@@ -67,7 +84,13 @@ class Film {
     [[nodiscard]] bool has_aovs() const { return !aovs_.empty(); }
     [[nodiscard]] FilmIdentity const& identity() const { return identity_; }
     [[nodiscard]] PassSet const& passes() const { return passes_; }
+    /// Samples that were not finite and count as black.
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+    /// Rays that were not finite and were not traced: something is missing in the sums.
+    [[nodiscard]] std::uint64_t rejected() const { return rejected_; }
+    [[nodiscard]] bool tainted() const { return dropped_ > 0 || rejected_ > 0; }
+    [[nodiscard]] FilmHeader header() const;
+    void describe(SettingWords words) { words_ = std::move(words); }
     [[nodiscard]] std::size_t bytes() const;
 
     /// Adds one camera sample to pixel (x, y) of the whole picture. A sample that is not finite is dropped: it counts with
@@ -77,6 +100,7 @@ class Film {
     /// A sample that is not finite leaves the layers as they are.
     void add_aov(int x, int y, std::uint64_t pass, AovSample const& sample, float weight);
     void add_dropped(std::uint64_t n) { dropped_ += n; }
+    void add_rejected(std::uint64_t n) { rejected_ += n; }
     /// Declares that pass i is complete in the sums.
     void finish_pass(std::uint64_t i) { passes_.insert(i); }
 
@@ -98,7 +122,8 @@ class Film {
     std::array<int, 4> crop_{0, 0, 0, 0};
     FilmIdentity identity_;
     PassSet passes_;
-    std::uint64_t dropped_ = 0;
+    std::uint64_t dropped_ = 0, rejected_ = 0;
+    SettingWords words_;
     std::vector<PixelSums> pixels_;
     std::vector<AovSums> aovs_;
 };

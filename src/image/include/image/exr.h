@@ -4,10 +4,13 @@
 
 #include "image/image.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,9 +37,33 @@ struct ExrFile {
     [[nodiscard]] ExrChannel const* find(std::string const& name) const;
 };
 
+/// A plane in memory that belongs to someone else: pixel i, row by row, lies at base + i * stride.
+template <class Byte>
+struct ExrPlaneAt {
+    std::string name;
+    ExrChannel::Type type = ExrChannel::Type::Float;  // Half means 16 bits
+    Byte* base = nullptr;
+    std::size_t stride = 4;
+};
+using ExrSourcePlane = ExrPlaneAt<std::byte const>;
+using ExrTargetPlane = ExrPlaneAt<std::byte>;
+
+enum class ExrCompression {
+    Zip,  // 16 lines at a time: small files
+    Fast  // run lengths: for numbers whose last bits are noise anyway, and that must be on disk soon
+};
+
 /// All channels of the first part, without loss. Deep files and subsampled channels are refused.
 ExrFile read_exr(std::filesystem::path const& path);
-/// ZIP-compressed scanlines; the same struct makes the same bytes. Halves: finite numbers too large become the largest.
-void write_exr(std::filesystem::path const& path, ExrFile const& file);
+/// Everything but the pixels: the channels are there without their data, and may be subsampled.
+ExrFile read_exr_header(std::filesystem::path const& path);
+/// Reads planes of up to 64 GiB in all straight to where they belong. `places` is shown the header and answers with the
+/// planes that it wants; it may throw. The others are left out.
+ExrFile read_exr(std::filesystem::path const& path,
+                 std::function<std::vector<ExrTargetPlane>(ExrFile const& header)> const& places);
+/// Compressed scanlines; the same struct makes the same bytes. Halves: finite numbers too large become the largest.
+/// `more` are planes beside those of `file`, written from where they lie.
+void write_exr(std::filesystem::path const& path, ExrFile const& file,
+               std::span<ExrSourcePlane const> more = {}, ExrCompression compression = ExrCompression::Zip);
 
 }  // namespace nephroid

@@ -20,9 +20,10 @@ struct RenderProgress {
 };
 
 struct RenderControl {
-    PassRange passes{0, 16};        // what the film should hold in the end; what it already holds is skipped
-    int threads = 0;                // 0 = as many as the machine has
-    std::optional<double> seconds;  // stop starting new batches after this long
+    PassRange passes{0, 16};  // what the film should hold in the end; what it already holds is skipped
+    int threads = 0;          // 0 = as many as the machine has
+    std::optional<double>
+        seconds;  // stop starting new batches after this long, but not before the first pass
     std::atomic<bool> const* stop =
         nullptr;  // set from outside (a signal): abandon the batch in flight and return
     std::function<void(RenderProgress const&)> on_progress;  // from one thread at a time, some times a second
@@ -38,6 +39,9 @@ struct RenderResult {
     double seconds = 0;
     std::uint64_t passes = 0;  // rendered in this run
 };
+
+/// Memory that render() takes beside the film, at most: what it may have to go back to.
+std::uint64_t render_bytes(std::uint64_t pixels, bool with_aovs);
 
 /// Adds the wanted passes to `film`. Passes are finished whole: when it stops early the film holds exactly the passes that its
 /// pass set says.

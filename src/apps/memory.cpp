@@ -1,0 +1,125 @@
+#include "memory.h"
+
+#include "math/error.h"
+#include "render/render.h"
+#include "statistics.h"
+#include "world/estimate.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace nephroid::cli {
+
+namespace {
+
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t saturated(std::uint64_t a, std::uint64_t b) { return a > kUnlimited - b ? kUnlimited : a + b; }
+std::uint64_t minus(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : 0; }
+
+/// The number after `key` in a file of lines "key number"; `key` empty: the first number.
+std::optional<std::uint64_t> number_in(std::string const& file, std::string const& key) {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string word;
+        if (!key.empty() && (!(words >> word) || word != key)) continue;
+        std::uint64_t n = 0;
+        if (words >> n) return n;
+        if (key.empty()) return std::nullopt;  // "max"
+    }
+    return std::nullopt;
+}
+
+std::uint64_t pages(int field) {
+    std::ifstream in("/proc/self/statm");
+    std::uint64_t n = 0;
+    for (int i = 0; i <= field; ++i) in >> n;
+    return n * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Version 2 of control groups, then version 1. Pages of files that were read count as used there, and are given back.
+std::uint64_t left_in_control_group() {
+    std::string group;
+    std::ifstream in("/proc/self/cgroup");
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with("0::")) group = line.substr(3);
+    std::uint64_t left = kUnlimited;
+    for (std::string const& folder : {"/sys/fs/cgroup" + group, std::string("/sys/fs/cgroup")})
+        if (auto const most = number_in(folder + "/memory.max", "")) {
+            std::uint64_t const used = number_in(folder + "/memory.current", "").value_or(0);
+            std::uint64_t const files = number_in(folder + "/memory.stat", "inactive_file").value_or(0);
+            left = std::min(left, minus(*most, minus(used, files)));
+        }
+    std::string const old = "/sys/fs/cgroup/memory";
+    if (auto const most = number_in(old + "/memory.limit_in_bytes", "")) {
+        std::uint64_t const used = number_in(old + "/memory.usage_in_bytes", "").value_or(0);
+        std::uint64_t const files = number_in(old + "/memory.stat", "total_inactive_file").value_or(0);
+        left = std::min(left, minus(*most, minus(used, files)));
+    }
+    return left;
+}
+
+/// What encoding a film takes at most, per pixel (film/develop.cpp, image/exr_write.cpp): six or twenty planes as floats,
+/// and once more as halves.
+constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 110;
+
+}  // namespace
+
+MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs) {
+    std::uint64_t const pixels = static_cast<std::uint64_t>(std::max(0, crop[1] - crop[0])) *
+                                 static_cast<std::uint64_t>(std::max(0, crop[3] - crop[2]));
+    std::uint64_t const encoding = pixels * (aovs ? kEncodingBytesAovs : kEncodingBytes);
+    // A resumed film lies beside the new one for a moment, too: as large as what rendering takes.
+    return {pages(1), minus(estimated_bytes(scene), held_bytes(scene)),
+            film_bytes(pixels, aovs) + std::max(encoding, render_bytes(pixels, aovs))};
+}
+
+std::uint64_t parse_bytes(std::string const& option, std::string const& text) {
+    double v = 0;
+    auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
+    std::string unit(r.ptr, text.data() + text.size());
+    for (char const* ending : {"iB", "B"})
+        if (unit.ends_with(ending)) {
+            unit.resize(unit.size() - std::string(ending).size());
+            break;
+        }
+    auto const power = std::string("KMGT").find(unit.empty() ? ' ' : unit[0]);
+    bool const known = unit.empty() || (unit.size() == 1 && power != std::string::npos);
+    double const bytes = unit.empty() ? v : v * static_cast<double>(1ull << (10 * (known ? power + 1 : 0)));
+    if (r.ec != std::errc{} || !known || !(v > 0) || !(bytes < 1e18))
+        throw Error(ErrorKind::Input,
+                    fmt::format("{} {}: expected a size such as 8G, 500M or 1000000", option, text));
+    return static_cast<std::uint64_t>(bytes);
+}
+
+std::uint64_t available_memory() {
+    std::uint64_t left = kUnlimited;
+    if (auto const kib = number_in("/proc/meminfo", "MemAvailable:")) left = *kib * 1024;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        left = std::min(left, minus(limit.rlim_cur, pages(0)));
+    return std::min(left, left_in_control_group());
+}
+
+void check_memory(MemoryNeed const& need, std::optional<std::uint64_t> limit) {
+    std::uint64_t const most = limit ? *limit : saturated(available_memory(), need.program);
+    std::uint64_t const total = saturated(need.program, saturated(need.world, need.film));
+    if (total <= most) return;
+    throw Error(
+        ErrorKind::Limit,
+        fmt::format("not enough memory: about {} are needed ({} in use, {} for the compiled scene, {} for "
+                    "the film), and {} are {}; render fewer pixels (--size, --crop), a simpler scene, or "
+                    "raise --memory-limit if you know better",
+                    bytes_text(total), bytes_text(need.program), bytes_text(need.world),
+                    bytes_text(need.film), bytes_text(most), limit ? "allowed" : "available"));
+}
+
+}  // namespace nephroid::cli

@@ -1,0 +1,29 @@
+// How much memory there is, and how much a render is going to need: said before it begins, rather than by the system when
+// it ends the program.
+#pragma once
+
+#include "film/film.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace nephroid::cli {
+
+struct MemoryNeed {
+    std::uint64_t program = 0;  // what is in use now, the scene as read included
+    std::uint64_t world = 0;    // what compiling adds
+    std::uint64_t film = 0;     // the sums, and what it takes to render and to write them
+    [[nodiscard]] std::uint64_t total() const { return program + world + film; }
+};
+MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs);
+
+/// "8G", "500M", "2GiB", "1000000" bytes. Throws Error(Input).
+std::uint64_t parse_bytes(std::string const& option, std::string const& text);
+/// What this process can have beyond what it has: the least of what the machine, its control group and `ulimit -v` leave.
+std::uint64_t available_memory();
+/// Throws Error(Limit) that says what needs how much, what there is, and what to do.
+void check_memory(MemoryNeed const& need, std::optional<std::uint64_t> limit);
+
+}  // namespace nephroid::cli

@@ -1,0 +1,127 @@
+#include "targets.h"
+
+#include "image/file.h"
+#include "image/image.h"
+#include "math/error.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+
+namespace nephroid::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One spelling for each file, whether it is there yet or not.
+fs::path canonical(std::string const& path) {
+    std::error_code ec;
+    fs::path const full = fs::absolute(write_target(path), ec);
+    fs::path const canonical = fs::weakly_canonical(full, ec);
+    return ec ? full.lexically_normal() : canonical;
+}
+
+bool is_output(FileRole r) { return r == FileRole::Output || r == FileRole::FilmOutput; }
+
+bool clash(NamedFile const& a, NamedFile const& b) {
+    if (!is_output(a.role) && !is_output(b.role)) return false;
+    bool const films = (a.role == FileRole::FilmInput && b.role == FileRole::FilmOutput) ||
+                       (a.role == FileRole::FilmOutput && b.role == FileRole::FilmInput);
+    return !films;
+}
+
+}  // namespace
+
+bool is_film_name(std::string const& path) { return path.size() > 9 && path.ends_with(".film.exr"); }
+
+std::string extension_of(std::string const& path) {
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+void check_target(std::string const& option, std::string const& file, bool checkpoint) {
+    fs::path const target = write_target(file);
+    fs::path const folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code ec;
+    if (!fs::is_directory(folder, ec))
+        throw Error(ErrorKind::Io,
+                    fmt::format("{} {}: there is no folder {}", option, file, folder.string()));
+    for (char const* suffix : {"", ".previous"}) {
+        if (*suffix != '\0' && !checkpoint) break;
+        struct stat ignored {};
+        if (::lstat((target.string() + suffix).c_str(), &ignored) != 0 && errno == ENAMETOOLONG)
+            throw Error(ErrorKind::Io,
+                        fmt::format("{} {}{}: the name is too long for the file system; choose a "
+                                    "shorter one",
+                                    option, file, suffix));
+    }
+    try {
+        NewFile const probe{fs::path(file)};
+    } catch (Error const& e) {
+        throw Error(e.kind(), fmt::format("{} {}", option, e.what()));
+    }
+}
+
+void check_outputs(std::vector<std::string> const& outputs) {
+    static constexpr char const* known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
+    for (std::string const& out : outputs) {
+        std::string const extension = extension_of(out);
+        if (std::none_of(std::begin(known), std::end(known), [&](char const* k) { return extension == k; }))
+            throw Error(ErrorKind::Input,
+                        fmt::format("-o {}: cannot write \"{}\" files; use .exr, .png, .jpg, .pfm, .hdr or "
+                                    ".film.exr",
+                                    out, extension));
+        check_target("-o", out);
+    }
+}
+
+void check_output_size(std::vector<std::string> const& outputs, std::array<int, 4> crop) {
+    int const width = crop[1] - crop[0], height = crop[3] - crop[2];
+    std::int64_t const pixels = std::int64_t{width} * height;
+    for (std::string const& out : outputs) {
+        std::string const extension = extension_of(out);
+        bool const jpeg = extension == ".jpg" || extension == ".jpeg";
+        int const longest = jpeg ? 65500 : kMaxImageSide;
+        if (width > longest || height > longest)
+            throw Error(
+                ErrorKind::Limit,
+                fmt::format("-o {}: {} x {} pixels; such a file has at most {} a side: --crop the picture",
+                            out, width, height, longest));
+        if (extension != ".exr" && pixels > kMaxImageBytes / 12)
+            throw Error(
+                ErrorKind::Limit,
+                fmt::format("-o {}: {} x {} pixels are more than 2 GiB of floats; write an EXR, or --crop "
+                            "the picture",
+                            out, width, height));
+    }
+}
+
+void check_conflicts(std::vector<NamedFile> const& files) {
+    std::vector<fs::path> paths;
+    paths.reserve(files.size());
+    for (NamedFile const& f : files) paths.push_back(canonical(f.path));
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            if (paths[i] != paths[k] || !clash(files[i], files[k])) continue;
+            bool const both = is_output(files[i].role) && is_output(files[k].role);
+            NamedFile const& written = is_output(files[i].role) ? files[i] : files[k];
+            NamedFile const& other = is_output(files[i].role) ? files[k] : files[i];
+            throw Error(ErrorKind::Input, fmt::format("{} {}: is {} {} as well{}; choose another name",
+                                                      written.option, written.path, other.option, other.path,
+                                                      both ? "" : ", which would be overwritten"));
+        }
+}
+
+void add_outputs(std::vector<NamedFile>& files, std::vector<std::string> const& outputs) {
+    for (std::string const& out : outputs)
+        files.push_back({"-o", out, is_film_name(out) ? FileRole::FilmOutput : FileRole::Output});
+}
+
+}  // namespace nephroid::cli
