@@ -14,6 +14,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(nephroid_flags INTERFACE -Wno-psabi -Wno-restrict)  # g++ 12 sees overlaps in std::string that are none
 endif()
 if(NEPHROID_SANITIZE)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(nephroid_flags INTERFACE -Wno-maybe-uninitialized)  # instrumented variants look uninitialised to g++ 12
+  endif()
   target_compile_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE})
 endif()

@@ -21,6 +21,21 @@ std::optional<Encoding> encoding_of(Scene const& scene, ImageFile const& file) {
     scene.fail(file.where, "unknown encoding \"" + file.encoding + "\"; use linear, sRGB or gamma <number>");
 }
 
+/// A table that ends within the visible range, kept at its end values: an index of refraction of 0 is none.
+Spd with_ends_kept(Spd spd) {
+    auto* table = std::get_if<TabulatedSpd>(&spd);
+    if (!table || table->lambda.empty()) return spd;
+    if (table->lambda.front() > kLambdaMin) {
+        table->lambda.insert(table->lambda.begin(), kLambdaMin);
+        table->value.insert(table->value.begin(), table->value.front());
+    }
+    if (table->lambda.back() < kLambdaMax) {
+        table->lambda.push_back(kLambdaMax);
+        table->value.push_back(table->value.back());
+    }
+    return spd;
+}
+
 Transform mapping_transform(Scene const& scene, SourceLocation where, Mat4 const& m) {
     auto const t = make_transform(m);
     if (!t) scene.fail(where, "the texture's transform cannot be inverted; remove a scale by 0");
@@ -106,7 +121,7 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
         look(MaterialId{i});
         auto const compile_eta = [&](Spd const& eta) {
             try {
-                materials_[i].eta = spectra_.compile(eta, SpectrumRole::Unbounded);
+                materials_[i].eta = spectra_.compile(with_ends_kept(eta), SpectrumRole::Unbounded);
             } catch (Error const& e) {
                 throw Error(e.kind(), scene.locate(material.where) + ": " + e.what());
             }

@@ -14,7 +14,7 @@ namespace nephroid {
 namespace {
 
 // Bytes. Measured: growth of the resident set while compiling with Embree 3.13, rounded up by a tenth: a mesh of 2 * 10^6
-// triangles (88 a triangle), the same as a light (39 more), 5 * 10^5 instances (456), 2 * 10^5 spheres (425), a
+// triangles (88 a triangle), 5 * 10^5 instances (456), 2 * 10^5 spheres (425), a
 // tetrahedron refined nine times (266 a triangle). Estimated: sizes of the structs that are made, rounded up.
 constexpr std::uint64_t kStart = 8 << 20;  // measured: Embree, threads, tables of spectra
 constexpr std::uint64_t kTriangle = 97;    // measured: Embree's triangles, nodes, and lists while building
@@ -22,7 +22,8 @@ constexpr std::uint64_t kPatch = 150;      // estimated: the same for a primitiv
 constexpr std::uint64_t kRefined = 196;    // measured: all levels of a subdivision, and its mesh
 constexpr std::uint64_t kInstance = 500;   // measured: Embree's instance, its node, and our record
 constexpr std::uint64_t kObject = 320;     // measured: Embree's geometry, and our record with its place
-constexpr std::uint64_t kLight = 44;       // measured: entry, weight, bin of the table for choosing
+constexpr std::uint64_t kLight =
+    170;  // estimated: entry of 76 in a list that doubles, weight, bin for choosing
 constexpr std::uint64_t kPixel = 16;       // measured for PNG (10), estimated for halves: picture, levels
 constexpr std::uint64_t kPixelOfSky = 12;  // measured: what choosing directions by a picture adds
 constexpr std::uint64_t kMostPixelsPerByte =

@@ -1,45 +1,31 @@
-// libFuzzer entry: any bytes are a picture of some format or an Error that names the file; never anything else. The name ends
-// in .tga, because that format has no mark: whatever has no other mark is taken for one.
-//   clang++ -std=c++20 -fsanitize=fuzzer,address,undefined … tests/fuzz/fuzz_image.cpp
+// Any bytes are a picture of some format, or an Error that names the file. The name ends in .tga, because that format has no
+// mark: whatever has no other mark is taken for one.
+#include "fuzz.h"
+
 #include "image/exr.h"
-#include "image/file.h"
 #include "image/peek.h"
 #include "image/read.h"
 #include "math/error.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <span>
-#include <string>
-
-#include <unistd.h>
 
 namespace {
 
-std::filesystem::path const& file() {
-    static std::filesystem::path const path =
-        std::filesystem::temp_directory_path() / ("nephroid-fuzz-" + std::to_string(::getpid()) + ".tga");
-    return path;
-}
-
+/// Runs f; an Error has to say which file it is about.
 template <class F>
-void expect_no_other_error(F&& f) {
+void names_the_file(std::filesystem::path const& file, F&& f) {
     try {
         f();
     } catch (nephroid::Error const& e) {
-        if (std::string(e.what()).find(file().string()) == std::string::npos) std::abort();
+        if (std::string(e.what()).find(file.string()) == std::string::npos) std::abort();
     }
 }
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
-    nephroid::write_file_atomically(file(), std::as_bytes(std::span(data, size)));
-    (void)nephroid::peek_size(file());
-    expect_no_other_error([] { (void)nephroid::read_image(file()); });
-    expect_no_other_error([] { (void)nephroid::read_exr(file()); });
-    std::filesystem::remove(file());
-    return 0;
+void nephroid::fuzz(std::string_view bytes) {
+    TemporaryFile const file(bytes, ".tga");
+    (void)peek_size(file.path());
+    names_the_file(file.path(), [&] { (void)read_image(file.path()); });
+    names_the_file(file.path(), [&] { (void)read_exr(file.path()); });
 }

@@ -315,6 +315,8 @@ TEST_CASE("materials become scattering values") {
     MaterialId const diffuse = s.add(Material{DiffuseMaterial{color}, "", {}});
     MaterialId const glass = s.add(Material{DielectricMaterial{ConstantSpd{1.7f}}, "", {}});
     MaterialId const flint = s.add(Material{DielectricMaterial{NamedSpd{"glass-SF11"}}, "", {}});
+    MaterialId const partial =
+        s.add(Material{DielectricMaterial{TabulatedSpd{{500, 600}, {1.6f, 1.5f}}}, "", {}});
     MaterialId const thin = s.add(Material{ThinDielectricMaterial{ConstantSpd{1.4f}}, "", {}});
     auto const eta = s.add(Texture{ConstantSpectrumTexture{ConstantSpd{0.2f}, SpectrumRole::Unbounded}, {}});
     auto const k = s.add(Texture{ConstantSpectrumTexture{ConstantSpd{3}, SpectrumRole::Unbounded}, {}});
@@ -335,6 +337,9 @@ TEST_CASE("materials become scattering values") {
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
             if (w.lambda(i) < w.lambda(j) - 5) CHECK(f.eta[i] > f.eta[j]);
+    // A table keeps its end values outside its wavelengths.
+    auto const short_table = std::get<DielectricBsdf>(bsdf_of(a, partial, {}, Wavelengths::spectral(0.001f)));
+    for (int i = 0; i < 4; ++i) CHECK((short_table.eta[i] >= 1.5f && short_table.eta[i] <= 1.6f));
     auto const in_rgb = std::get<DielectricBsdf>(bsdf_of(a, flint, {}, rgb));
     CHECK_FALSE(in_rgb.dispersive);
     for (int i = 1; i < 4; ++i) CHECK(in_rgb.eta[i] == in_rgb.eta[0]);
