@@ -18,7 +18,10 @@ namespace fs = std::filesystem;
 
 bool same_file(fs::path const& a, fs::path const& b) {
     std::error_code ec;
-    return fs::weakly_canonical(a, ec) == fs::weakly_canonical(b, ec);
+    fs::path const one = fs::weakly_canonical(a, ec);
+    if (ec) return false;
+    fs::path const other = fs::weakly_canonical(b, ec);
+    return !ec && one == other;
 }
 
 std::string offer(fs::path const& other) {
@@ -61,12 +64,11 @@ void resume(std::string const& file, Film& film) {
     merge_into(film, resumed);
 }
 
-void guard_checkpoint(std::string const& file, std::string const& resumed, Film const& film,
-                      PassRange wanted) {
+void guard_checkpoint(std::string const& file, std::string const& resumed, Film const& film) {
     fs::path const path(file);
     if (!resumed.empty() && same_file(resumed, path)) return;
-    PassSet kept = film.passes();
-    kept.insert(wanted);
+    // What is in the film now, and nothing that may or may not be rendered: the first checkpoint comes before the last pass.
+    PassSet const& kept = film.passes();
     std::error_code ec;
     if (fs::exists(path, ec)) {
         // Going on from an older generation is what one does when the newest is damaged.

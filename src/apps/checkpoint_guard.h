@@ -11,8 +11,8 @@ namespace nephroid::cli {
 /// Reads the film of --resume and adds it to the job's empty film.
 void resume(std::string const& file, Film& film);
 
-/// `film` is what the render starts from, `wanted` what it is sure to add. `resumed` is the file of --resume, or empty.
-void guard_checkpoint(std::string const& file, std::string const& resumed, Film const& film,
-                      PassRange wanted);
+/// `film` is what the render starts from: the file may hold no pass that is not in it. `resumed` is the file of --resume, or
+/// empty.
+void guard_checkpoint(std::string const& file, std::string const& resumed, Film const& film);
 
 }  // namespace nephroid::cli

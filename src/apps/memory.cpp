@@ -45,26 +45,31 @@ std::uint64_t pages(int field) {
     return n * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Version 2 of control groups, then version 1. Pages of files that were read count as used there, and are given back.
+/// What a control group has left; pages of files that were read count as used there, and are given back when needed.
+std::uint64_t left_in(std::string const& folder, char const* most_name, char const* used_name,
+                      std::string const& prefix) {
+    auto const most = number_in(folder + "/" + most_name, "");
+    if (!most) return kUnlimited;
+    std::uint64_t const used = number_in(folder + "/" + used_name, "").value_or(0);
+    std::uint64_t files = 0;
+    for (char const* kind : {"inactive_file", "active_file"})
+        files += number_in(folder + "/memory.stat", prefix + kind).value_or(0);
+    return minus(*most, minus(used, files));
+}
+
+/// Version 2 of control groups, where every group above ours has its own limit, then version 1.
 std::uint64_t left_in_control_group() {
     std::string group;
     std::ifstream in("/proc/self/cgroup");
     for (std::string line; std::getline(in, line);)
         if (line.starts_with("0::")) group = line.substr(3);
-    std::uint64_t left = kUnlimited;
-    for (std::string const& folder : {"/sys/fs/cgroup" + group, std::string("/sys/fs/cgroup")})
-        if (auto const most = number_in(folder + "/memory.max", "")) {
-            std::uint64_t const used = number_in(folder + "/memory.current", "").value_or(0);
-            std::uint64_t const files = number_in(folder + "/memory.stat", "inactive_file").value_or(0);
-            left = std::min(left, minus(*most, minus(used, files)));
-        }
-    std::string const old = "/sys/fs/cgroup/memory";
-    if (auto const most = number_in(old + "/memory.limit_in_bytes", "")) {
-        std::uint64_t const used = number_in(old + "/memory.usage_in_bytes", "").value_or(0);
-        std::uint64_t const files = number_in(old + "/memory.stat", "total_inactive_file").value_or(0);
-        left = std::min(left, minus(*most, minus(used, files)));
+    std::string const root = "/sys/fs/cgroup";
+    std::uint64_t left =
+        left_in(root + "/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_");
+    for (;; group.resize(group.rfind('/'))) {
+        left = std::min(left, left_in(root + group, "memory.max", "memory.current", ""));
+        if (group.find('/') == std::string::npos) return left;
     }
-    return left;
 }
 
 /// What encoding a film takes at most, per pixel (film/develop.cpp, image/exr_write.cpp): six or twenty planes as floats,

@@ -239,9 +239,7 @@ int run(RenderOptions const& o) {
     Film film = job.make_film();
     film.describe(words_of(settings));
     if (!o.resume.empty()) resume(o.resume, film);
-    if (!o.checkpoint.empty())
-        // How far a time limit reaches, nobody knows.
-        guard_checkpoint(o.checkpoint, o.resume, film, seconds ? PassRange{0, 0} : passes);
+    if (!o.checkpoint.empty()) guard_checkpoint(o.checkpoint, o.resume, film);
     stats.compile_seconds = lap();
 
     std::size_t const notes = world.scene().notes.size();
@@ -296,10 +294,10 @@ int run(RenderOptions const& o) {
         log.warning("interrupted before the first pass was done; nothing was written");
         return kInterrupted;
     }
-    // Side by side with the outputs: after a signal there are two seconds for all of them.
+    // Side by side with the outputs, where a thread is to be had: after a signal there are two seconds for all of them.
     std::future<bool> checkpoint;
     if (!o.checkpoint.empty() && on_disk != film.passes())
-        checkpoint = std::async(std::launch::async, [&] {
+        checkpoint = std::async(std::launch::async | std::launch::deferred, [&] {
             return try_checkpoint(o.checkpoint, film, checkpoint_is_ours, checkpoint_error);
         });
     DevelopSettings develop;

@@ -77,6 +77,14 @@ void read_attribute(Cursor& in, Part& part, std::string const& attribute, std::s
 /// What compression can shrink at most, generously; beyond it the data cannot be there. DWA has no useful bound.
 std::int64_t largest_ratio(int compression) { return compression >= 8 ? 1 << 20 : 4096; }
 
+/// Lines that one chunk holds; unknown methods as many as any.
+std::int64_t lines_per_chunk(int compression) {
+    constexpr std::array<std::int64_t, 10> kLines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    return compression >= 0 && compression < static_cast<int>(kLines.size())
+               ? kLines[static_cast<std::size_t>(compression)]
+               : 256;
+}
+
 void check_part(Part const& part, std::uint64_t bytes_left, std::int64_t most_bytes,
                 std::string const& path) {
     if (!part.has_data || !part.has_display) fail(path, "the EXR header names no data or display window");
@@ -88,9 +96,16 @@ void check_part(Part const& part, std::uint64_t bytes_left, std::int64_t most_by
     std::int64_t const height = std::int64_t{part.data[3]} - part.data[1] + 1;
     if (part.bytes_per_pixel == 0) fail(path, "the EXR file has no channels");
     check_size(path, width, height, 1, 1);
-    // Lines are unpacked by up to 256 at once, whatever the whole picture may take.
-    if (width * std::min<std::int64_t>(height, 256) > kMaxImageBytes / part.bytes_per_pixel ||
-        width * height > most_bytes / part.bytes_per_pixel)
+    // The lines of a chunk are unpacked at once, whatever the whole picture may take.
+    std::int64_t const lines = std::min(height, lines_per_chunk(part.compression));
+    if (width * lines > kMaxImageBytes / part.bytes_per_pixel)
+        fail(path,
+             std::to_string(lines) + " lines of " + std::to_string(width) + " pixels of " +
+                 std::to_string(part.bytes_per_pixel) +
+                 " bytes, which are compressed as one, take more than " +
+                 std::to_string(kMaxImageBytes >> 30) + " GiB; compress it line by line (ZIPS or RLE)",
+             ErrorKind::Limit);
+    if (width * height > most_bytes / part.bytes_per_pixel)
         fail(path,
              "the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
                  std::to_string(part.bytes_per_pixel) + " bytes, more than " +

@@ -99,7 +99,10 @@ int open_locked(std::filesystem::path const& path) {
         // Whoever had the lock before may have renamed the file since it was opened here.
         bool const still_there = locked && ::fstat(fd, &mine) == 0 && ::stat(path.c_str(), &named) == 0 &&
                                  mine.st_ino == named.st_ino && mine.st_dev == named.st_dev;
-        if (still_there && S_ISREG(mine.st_mode) && ::ftruncate(fd, 0) == 0) return fd;
+        // Left by a writer that was killed, or new: ours, and under no other name.
+        bool const free_to_use =
+            still_there && S_ISREG(mine.st_mode) && mine.st_nlink == 1 && mine.st_uid == ::geteuid();
+        if (free_to_use && ::ftruncate(fd, 0) == 0) return fd;
         ::close(fd);
         if (!locked) return -1;
     }

@@ -4,6 +4,8 @@
 #include "math/error.h"
 
 #include <fstream>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +41,29 @@ Size jpeg_size(std::istream& in) {
     return std::nullopt;
 }
 
+/// The line of a Radiance picture that tells its size ends the header: "-Y height +X width", in some order and with some signs.
+Size hdr_size(std::istream& in) {
+    in.seekg(0);
+    std::string line;
+    for (int i = 0; i < 1000 && std::getline(in, line) && line.size() < 4096; ++i) {
+        std::istringstream words(line);
+        std::string first;
+        std::string second;
+        std::int64_t a = 0;
+        std::int64_t b = 0;
+        if (!(words >> first >> a >> second >> b) || first.size() != 2 || second.size() != 2) continue;
+        if (first[1] == 'Y' && second[1] == 'X') return {{b, a}};
+        if (first[1] == 'X' && second[1] == 'Y') return {{a, b}};
+    }
+    return std::nullopt;
+}
+Size pfm_size(std::istream& in) {
+    in.seekg(2);
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+    return in >> width >> height ? Size{{width, height}} : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::array<std::int64_t, 2>> peek_size(std::filesystem::path const& path) {
@@ -46,8 +71,12 @@ std::optional<std::array<std::int64_t, 2>> peek_size(std::filesystem::path const
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
     std::ifstream in(path, std::ios::binary);
     std::string head(24, '\0');
-    if (!in.read(head.data(), 24)) return std::nullopt;
+    in.read(head.data(), 24);
+    if (in.gcount() < 12) return std::nullopt;
+    in.clear();
     std::string_view const bytes = head;
+    if (bytes.starts_with("#?")) return hdr_size(in);
+    if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return pfm_size(in);
     if (bytes.starts_with("\x89PNG\r\n\x1a\n"))
         return {{big_endian(bytes.substr(16, 4)), big_endian(bytes.substr(20, 4))}};
     if (bytes.starts_with("\xff\xd8\xff")) return jpeg_size(in);

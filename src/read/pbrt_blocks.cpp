@@ -41,10 +41,12 @@ void PbrtReader::push(char kind, SourceLocation where) {
     saved_.push_back({state_, kind, where});
 }
 
-void PbrtReader::pop(char kind, SourceLocation where) {
+bool PbrtReader::pop(char kind, SourceLocation where) {
     char const* const end = kind == 'o' ? "ObjectEnd" : "AttributeEnd";
-    if (saved_.size() <= saved_floor_)
-        return context_.note(where, std::string(end) + " without its Begin is ignored");
+    if (saved_.size() <= saved_floor_) {
+        context_.note(where, std::string(end) + " without its Begin is ignored");
+        return false;
+    }
     auto& top = saved_.back();
     if (top.kind != kind)
         context_.fail(where, std::string(end) + " closes what " +
@@ -52,6 +54,7 @@ void PbrtReader::pop(char kind, SourceLocation where) {
                                  context_.scene.locate(top.where));
     state_ = std::move(top.state);
     saved_.pop_back();
+    return true;
 }
 
 void PbrtReader::attribute_begin(Tokenizer& /*tokens*/, SourceLocation where) { push('a', where); }
@@ -92,8 +95,7 @@ void PbrtReader::object_begin(Tokenizer& tokens, SourceLocation where) {
 
 void PbrtReader::object_end(Tokenizer& /*tokens*/, SourceLocation where) {
     if (group_ == GroupId{0}) context_.fail(where, "ObjectEnd without its Begin");
-    pop('o', where);
-    group_ = GroupId{0};
+    if (pop('o', where)) group_ = GroupId{0};
 }
 
 void PbrtReader::object_instance(Tokenizer& tokens, SourceLocation where) {

@@ -77,7 +77,8 @@ class PbrtReader {
     void include(Tokenizer&, SourceLocation);
     void import(Tokenizer&, SourceLocation);
     void push(char kind, SourceLocation where);
-    void pop(char kind, SourceLocation where);
+    /// False, with a note, where nothing is open.
+    bool pop(char kind, SourceLocation where);
     void run_file(Tokenizer& tokens, SourceLocation where, char const* what);
 
     // Transforms (pbrt_transforms.cpp)

@@ -27,8 +27,9 @@ constexpr std::uint64_t kLight =
 constexpr std::uint64_t kPixel = 16;       // measured for PNG (10), estimated for halves: picture, levels
 constexpr std::uint64_t kPixelOfSky = 12;  // measured: what choosing directions by a picture adds
 constexpr std::uint64_t kMostPixelsPerByte =
-    8256;                                    // deflate makes at most 1032 bytes of one, of 8 pixels each
-constexpr std::uint64_t kPixelsPerByte = 4;  // estimated: of a file that does not say how large it is
+    8256;  // deflate makes at most 1032 bytes of one, of 8 pixels each
+constexpr std::uint64_t kPixelsPerByte =
+    1;  // a guess: of a file that does not say how large it is, and will be refused
 
 std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
     return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
@@ -114,8 +115,7 @@ Appearances appearances(Scene const& scene) {
     return groups.front();
 }
 
-/// Without unpacking it. Files that do not say how large they are (HDR, PFM) are hardly compressed; those that claim more
-/// than is read, or than their bytes can hold, are refused by name when they are.
+/// Without unpacking it. Files that claim more than is read, or than their bytes can hold, are refused by name when they are.
 std::uint64_t pixels_of(ImageFile const& image) {
     std::error_code error;
     std::uint64_t const file = std::filesystem::file_size(image.path, error);
@@ -130,7 +130,14 @@ std::uint64_t pixels_of(ImageFile const& image) {
 
 std::uint64_t picture_bytes(Scene const& scene) {
     std::uint64_t bytes = 0;
-    for (ImageFile const& image : scene.images) bytes = plus(bytes, times(pixels_of(image), kPixel));
+    std::uint64_t largest = 0;  // files are read one at a time, and lie in memory while they are decoded
+    for (ImageFile const& image : scene.images) {
+        std::error_code error;
+        std::uint64_t const file = std::filesystem::file_size(image.path, error);
+        if (!error) largest = std::max(largest, file);
+        bytes = plus(bytes, times(pixels_of(image), kPixel));
+    }
+    bytes = plus(bytes, largest);
     for (Light const& light : scene.lights)
         if (auto const* sky = std::get_if<InfiniteLight>(&light.kind))
             if (sky->image.value < scene.images.size())

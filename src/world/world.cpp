@@ -105,14 +105,20 @@ float World::transmittance(SurfaceHit const& from, LightSample const& to, RaySta
 }
 
 /// The product of the shares that partly passing surfaces on the way let through. Chance decides at hits (transport/walk.cpp);
-/// here its mean is at hand, which is the same on average and has no noise.
+/// here its mean is at hand, which has no noise. Shadows have no footprint: a picture that says how much passes is looked up
+/// at its finest. A ray that meets more surfaces than a scene in order has ends in the dark, and so does one that is no ray.
 float World::passing_share(Ray ray, float t_max, RayStats& stats) const {
     Vec3 const end = ray.o + ray.d;
+    constexpr int kMostSurfaces = 4096;
     float share = 1;
-    RawHit raw;
-    while (share > 0.0f && RayCaster::acceptable(ray, t_max) &&
-           caster_->nearest(ray, t_max, raw, RayCaster::seen(Passage::Partly))) {
+    for (int i = 0; i < kMostSurfaces && share > 0.0f; ++i) {
+        if (!RayCaster::acceptable(ray, t_max)) {
+            ++stats.rejected;
+            return 0.0f;
+        }
         ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
+        RawHit raw;
+        if (!caster_->nearest(ray, t_max, raw, RayCaster::seen(Passage::Partly))) return share;
         SurfaceHit hit;
         complete(raw, hit);
         TexturePoint at;
@@ -122,7 +128,7 @@ float World::passing_share(Ray ray, float t_max, RayStats& stats) const {
         ray = hit.spawn(ray.d);
         if (std::isfinite(t_max)) ray.d = end - ray.o;
     }
-    return share;
+    return 0.0f;
 }
 
 Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {

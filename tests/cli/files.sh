@@ -10,10 +10,9 @@ mkdir folder
 ln -s a.exr link.exr
 cp scene.pbrt before.pbrt
 twice() {
-    SECONDS=0
     run 2 "${endless[@]}" "$@"
     says "choose another name"
-    ((SECONDS < 10)) || fail "$* was noticed after $SECONDS s"
+    ! grep -q rendering err || fail "$* was noticed after rendering had begun"
 }
 twice -o a.exr -o a.exr
 twice -o a.exr -o folder/../a.exr
@@ -38,7 +37,7 @@ run 2 merge film.exr -o film.exr
 same a.film.exr film.exr
 rm film.exr more.pbrt including.pbrt before.pbrt link.exr
 
-# A checkpoint that is there is not overwritten, unless this render will hold all of it.
+# A checkpoint that is there is not overwritten, unless this render goes on from all of it: whoever forgets --resume loses nothing.
 render --spp 4 --checkpoint c.film.exr -o a.exr
 cp c.film.exr kept
 guarded() {
@@ -49,6 +48,7 @@ guarded() {
 }
 guarded scene.pbrt --spp 3
 says "--resume c.film.exr"
+guarded scene.pbrt --spp 8
 guarded scene.pbrt --passes 2:9
 guarded scene.pbrt --time 1s
 guarded scene.pbrt --spp 8 --seed 1
@@ -65,18 +65,17 @@ render --spp 4 -o c.film.exr.film.exr
 mv c.film.exr.film.exr c.film.exr.previous
 run 2 render scene.pbrt --spp 2 --checkpoint c.film.exr -o b.exr
 says "c.film.exr.previous"
-render --spp 5 --checkpoint c.film.exr -o b.exr
-render --spp 6 --checkpoint c.film.exr -o b.exr
+render --spp 5 --resume c.film.exr.previous --checkpoint c.film.exr -o b.exr
+render --spp 6 --resume c.film.exr --checkpoint c.film.exr -o b.exr
 rm c.film.exr*
 
 # Places that cannot be written.
 mkfifo pipe.exr
 before() {
     local code=$1 option=$2 value=$3
-    SECONDS=0
     run "$code" "${endless[@]}" "$option" "$value"
     says "$option"
-    ((SECONDS < 10)) || fail "$option $value was noticed after $SECONDS s"
+    ! grep -q rendering err || fail "$option $value was noticed after rendering had begun"
 }
 for option in -o --checkpoint --stats; do before 4 $option pipe.exr; done
 long=$(printf 'x%.0s' {1..240}).film.exr

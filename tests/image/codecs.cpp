@@ -248,12 +248,14 @@ TEST_CASE("EXR: deep files are refused, and so are attributes that reserved name
 TEST_CASE("how large a picture is can be told without reading it") {
     test::Folder const folder;
     Image const image = test::gradient(PixelFormat::Float, 37, 21, 3);
-    for (char const* name : {"a.png", "a.jpg", "a.exr"}) {
+    for (char const* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.pfm"}) {
         write_image(folder / name, image);
         CHECK(peek_size(folder / name) == std::array<std::int64_t, 2>{37, 21});
     }
-    write_image(folder / "a.pfm", image);
-    CHECK_FALSE(peek_size(folder / "a.pfm").has_value());
+    CHECK(peek_size(test::write(folder, "c.hdr", "#?RADIANCE\n\n+X 37 -Y 21\n")) ==
+          std::array<std::int64_t, 2>{37, 21});
+    CHECK_FALSE(peek_size(test::write(folder, "d.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n")).has_value());
+    CHECK_FALSE(peek_size(test::write(folder, "d.pfm", "PF\nwide high\n")).has_value());
     CHECK_FALSE(peek_size(folder / "nowhere.png").has_value());
     CHECK_FALSE(peek_size(folder.path()).has_value());
     std::string const cut = read_text_file(folder / "a.jpg").substr(0, 100);

@@ -21,7 +21,7 @@ namespace nephroid::test {
 inline bool full() { return std::getenv("NEPHROID_FULL") != nullptr; }
 /// Sanitizers look for faults of memory and arithmetic, not of chance, and take ten times as long.
 #ifdef __SANITIZE_ADDRESS__
-inline constexpr int kSanitizerShare = 10;
+inline constexpr int kSanitizerShare = 5;
 #else
 inline constexpr int kSanitizerShare = 1;
 #endif

@@ -54,6 +54,12 @@ TEST_CASE("Import gives nothing of its state back") {
     CHECK(contains(notes(read_scene(folder.write(
                        "m3.pbrt", "WorldBegin AttributeBegin Import \"close.pbrt\" AttributeEnd"))),
                    "close.pbrt:2: AttributeEnd without its Begin"));
+    // Nor an object: what follows in it still belongs to the object.
+    folder.write("end.pbrt", "ObjectEnd Shape \"disk\"");
+    auto const object = read_scene(folder.write(
+        "m4.pbrt", "WorldBegin ObjectBegin \"o\" Import \"end.pbrt\" ObjectEnd Shape \"sphere\""));
+    CHECK(object.world().objects.size() == 1);
+    CHECK(object.groups.at(1).objects.size() == 1);
 }
 
 TEST_CASE("the first file's folder comes before that of the file which names another") {

@@ -10,7 +10,7 @@ namespace nephroid {
 
 /// Writes the film to `path`; the film that was there becomes `<path>.previous`, unless it is damaged: a whole generation
 /// never makes way for one that is not. `newest_is_whole`: the caller wrote `path` himself, so that there is no need to
-/// read it. Throws Error(Io), and then `path` and `<path>.previous` are what they were.
+/// read it. Throws Error(Io); whatever failed, one generation is whole, as `path`, `<path>.previous` or `<path>.next`.
 void write_checkpoint(std::filesystem::path const& path, Film const& film, bool newest_is_whole = false);
 
 /// The film at `path`. When it is missing or damaged, the error says which other generation could serve: that is for the

@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// Width and height as a PNG, JPEG, EXR or TGA file claims them; nothing for other files and for those that cannot be read.
+/// Width and height as a picture file claims them; nothing for what is no picture and for files that cannot be read.
 /// Never throws, never reads the pixels.
 std::optional<std::array<std::int64_t, 2>> peek_size(std::filesystem::path const& path);
 
