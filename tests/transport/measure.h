@@ -80,7 +80,7 @@ inline Means measure(World const& world, Settings s, std::uint64_t passes, bool 
 }
 
 /// The power that a mean must have: the 99% interval's half width, as a share of the expected value.
-inline double power() { return full() ? 0.001 : 0.005; }
+inline double power() { return full() ? 0.001 : 0.005 * (kSanitizerShare > 1 ? 4 : 1); }
 
 /// agrees() of statistics.h, with more room for float rounding, which adds up along long paths (1e-5).
 inline Agreement agreement(Mean const& m, double expected, double within, double alpha, double unit) {
