@@ -50,26 +50,28 @@ bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wave
         assets.scene()[id].kind,
         [&](DiffuseMaterial const& m) {
             bsdf.emplace<DiffuseBsdf>(
-                clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f));
+                DiffuseBsdf{clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f)});
             return true;
         },
         [&](DielectricMaterial const&) {
             RuntimeSpectrum const& eta = assets.data(id).eta;
-            bsdf.emplace<DielectricBsdf>(index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant());
+            bsdf.emplace<DielectricBsdf>(
+                DielectricBsdf{index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant()});
             return true;
         },
         [&](ThinDielectricMaterial const&) {
-            bsdf.emplace<ThinDielectricBsdf>(index_lanes(assets.data(id).eta, lambda));
+            bsdf.emplace<ThinDielectricBsdf>(ThinDielectricBsdf{index_lanes(assets.data(id).eta, lambda)});
             return true;
         },
         [&](ConductorMaterial const& m) {
             if (m.reflectance.valid()) {
                 // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
                 Spectrum const r = clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 0.9999f);
-                bsdf.emplace<ConductorBsdf>(Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r)));
+                bsdf.emplace<ConductorBsdf>(
+                    ConductorBsdf{Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))});
             } else {
-                bsdf.emplace<ConductorBsdf>(evaluate_spectrum(assets, m.eta, at, lambda),
-                                            evaluate_spectrum(assets, m.k, at, lambda));
+                bsdf.emplace<ConductorBsdf>(ConductorBsdf{evaluate_spectrum(assets, m.eta, at, lambda),
+                                                          evaluate_spectrum(assets, m.k, at, lambda)});
             }
             return true;
         },

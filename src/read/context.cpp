@@ -11,16 +11,16 @@ namespace {
 constexpr std::size_t kMaxPath = 1000;  // in messages: the end of a path matters more than that of a name
 }
 
-std::uint32_t Context::add_file(std::string shown, std::filesystem::path folder) {
+std::uint32_t Context::add_file(std::string const& shown, std::filesystem::path folder) {
     scene.files.push_back(nephroid::shown(shown, kMaxPath));
     folders_.push_back(std::move(folder));
     return static_cast<std::uint32_t>(scene.files.size() - 1);
 }
 
 std::filesystem::path Context::resolve(SourceLocation where, std::string const& name) const {
-    std::filesystem::path const path = name;
+    std::filesystem::path path = name;
     if (path.is_absolute() || where.file >= folders_.size()) return path;
-    auto const below_first = (folders_[0] / path).lexically_normal();
+    auto below_first = (folders_[0] / path).lexically_normal();
     if (where.file == 0) return below_first;
     std::error_code ignored;
     if (std::filesystem::exists(below_first, ignored)) return below_first;

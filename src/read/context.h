@@ -16,7 +16,7 @@ class Context {
     Scene scene;
 
     /// Registers a file that locations may point into. `folder` is where the names it mentions start.
-    std::uint32_t add_file(std::string shown, std::filesystem::path folder);
+    std::uint32_t add_file(std::string const& shown, std::filesystem::path folder);
     /// The path of a file that is named at `where`: relative to the first file, as in pbrt, or, where nothing is there,
     /// to the file that names it.
     [[nodiscard]] std::filesystem::path resolve(SourceLocation where, std::string const& name) const;

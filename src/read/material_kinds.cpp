@@ -39,7 +39,7 @@ MaterialKind Materials::kind_of(std::string const& type, Params& p, Pending cons
         return InterfaceMaterial{};
     }
     if (type == "diffuse") {
-        auto const m = diffuse(p, 0.5f);
+        auto m = diffuse(p, 0.5f);
         note_displaced(p);
         return m;
     }
@@ -55,7 +55,7 @@ MaterialKind Materials::kind_of(std::string const& type, Params& p, Pending cons
         return m;
     }
     if (type == "conductor") {
-        auto const m = conductor(p, "");
+        auto m = conductor(p, "");
         note_rough(p);
         note_displaced(p);
         return m;

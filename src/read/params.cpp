@@ -147,9 +147,9 @@ bool Params::boolean(std::string_view name, bool otherwise) {
     auto const* p = one(name, ParamType::Bool, 1);
     return p ? p->bools[0] : otherwise;
 }
-std::string Params::string(std::string_view name, std::string otherwise) {
+std::string Params::string(std::string_view name, std::string_view otherwise) {
     auto const* p = one(name, ParamType::String, 1);
-    return p ? p->strings[0] : std::move(otherwise);
+    return p ? p->strings[0] : std::string(otherwise);
 }
 
 std::size_t Params::choice(std::string_view name, std::initializer_list<std::string_view> choices,

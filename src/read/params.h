@@ -80,7 +80,7 @@ class Params {
     float number(std::string_view name, float otherwise);
     int integer(std::string_view name, int otherwise);
     bool boolean(std::string_view name, bool otherwise);
-    std::string string(std::string_view name, std::string otherwise);
+    std::string string(std::string_view name, std::string_view otherwise);
     /// A string that must be one of `choices`: its index there.
     std::size_t choice(std::string_view name, std::initializer_list<std::string_view> choices,
                        std::size_t otherwise);

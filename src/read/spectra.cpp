@@ -78,7 +78,7 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
     auto const path = context.resolve(p.where, name);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
-        auto const names = named_spectrum_names();
+        auto const& names = named_spectrum_names();
         context.fail(p.where, "parameter \"spectrum " + shown(p.name) + "\": \"" + shown(name) +
                                   "\" is neither a named spectrum nor a file" +
                                   did_you_mean(name, {names.begin(), names.end()}));

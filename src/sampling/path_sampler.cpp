@@ -60,8 +60,10 @@ Vec2 PathSampler::stratified_2d(std::uint64_t key) const {
         offset = {to_unit_float(static_cast<std::uint32_t>(bits)),
                   to_unit_float(static_cast<std::uint32_t>(bits >> 32))};
     }
-    return {std::min((static_cast<float>(cell % nx) + offset.x) / static_cast<float>(nx), kOneMinusEpsilon),
-            std::min((static_cast<float>(cell / nx) + offset.y) / static_cast<float>(ny), kOneMinusEpsilon)};
+    std::uint32_t const column = cell % nx;
+    std::uint32_t const row = cell / nx;
+    return {std::min((static_cast<float>(column) + offset.x) / static_cast<float>(nx), kOneMinusEpsilon),
+            std::min((static_cast<float>(row) + offset.y) / static_cast<float>(ny), kOneMinusEpsilon)};
 }
 
 }  // namespace nephroid

@@ -120,11 +120,11 @@ says "going on without a checkpoint"
 rm full.png code
 # A failed checkpoint does not cost the passes after it.
 mkdir gone
-"$program" render scene.pbrt --size 200x150 --time 2s -o g.film.exr --checkpoint gone/c.film.exr --checkpoint-every 0.05 \
+"$program" render scene.pbrt --size 200x150 --time 5s -o g.film.exr --checkpoint gone/c.film.exr --checkpoint-every 0.05 \
     >out 2>err &
 pid=$!
-sleep 1
-rm -r gone
+await gone/c.film.exr
+until rm -rf gone 2>rm.err; do :; done # a checkpoint may be written meanwhile
 wait $pid
 code=$?
 [[ $code == 4 ]] || fail "exit code $code without a folder for the checkpoint"

@@ -24,6 +24,14 @@ prints() { grep -qF -- "$1" out || fail "stdout does not say \"$1\""; }
 silent() { [[ ! -s $1 ]] || fail "$1 is not empty: $(head -c 200 "$1")"; }
 same() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
 exists() { [[ -s $1 ]] || fail "$1 was not written"; }
+# Waits until a program in the background has written a file, for a minute.
+await() {
+    for _ in {1..600}; do
+        [[ ! -s $1 ]] || return 0
+        sleep 0.1
+    done
+    fail "$1 did not appear within a minute"
+}
 absent() { [[ ! -e $1 ]] || fail "$1 was written"; }
 # Only these files (and out, err) are in the folder.
 only() {
