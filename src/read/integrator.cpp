@@ -30,17 +30,35 @@ Roulette roulette(Params& p, RouletteKind otherwise) {
     return r;
 }
 
+HemisphereSampling hemisphere(Params& p) {
+    return p.choice("hemisphere", {"cosine", "uniform"}, 0) == 0 ? HemisphereSampling::Cosine
+                                                                 : HemisphereSampling::Uniform;
+}
+
+/// pbrt's "lightsampler", and where on a shape it draws.
+LightSampling light_sampling(Params& p) {
+    constexpr std::array kChoices{LightChoice::Bvh, LightChoice::Power, LightChoice::Uniform,
+                                  LightChoice::Bvh};
+    constexpr std::array kShapes{ShapeSampling::SolidAngle, ShapeSampling::Area, ShapeSampling::VisibleArea,
+                                 ShapeSampling::Projected, ShapeSampling::VisibleUnweighed};
+    LightSampling l;
+    std::size_t const choice = p.choice("lightsampler", {"bvh", "power", "uniform", "exhaustive"}, 0);
+    if (choice == 3) p.note("light sampler \"exhaustive\" is not built: \"bvh\" stands in");
+    l.choice = kChoices[choice];
+    l.shapes = kShapes[p.choice(
+        "shapesampling", {"solidangle", "area", "visiblearea", "projected", "visibleunweighed"}, 0)];
+    return l;
+}
+
 PathIntegrator path(Params& p) {
     PathIntegrator i;
     i.max_depth = max_depth(p);
     i.roulette = roulette(p, RouletteKind::Throughput);
     i.sample_lights = p.boolean("samplelights", true);
     i.sample_bsdf_mis = p.boolean("mis", true);
-    i.hemisphere = p.choice("hemisphere", {"cosine", "uniform"}, 0) == 0 ? HemisphereSampling::Cosine
-                                                                         : HemisphereSampling::Uniform;
+    i.hemisphere = hemisphere(p);
     if (p.boolean("regularize", false)) p.note("\"regularize\" is not supported yet and changes nothing");
-    // How lights are chosen changes noise alone.
-    p.find("lightsampler", {ParamType::String});
+    i.lights = light_sampling(p);
     return i;
 }
 
@@ -51,7 +69,21 @@ PathIntegrator simple_path(Params& p) {
     i.roulette = roulette(p, RouletteKind::None);
     i.sample_lights = p.boolean("samplelights", true);
     i.sample_bsdf_mis = false;
+    // pbrt's chooses lights uniformly; how they are chosen changes noise alone.
+    i.lights = light_sampling(p);
     i.hemisphere = p.boolean("samplebsdf", true) ? HemisphereSampling::Cosine : HemisphereSampling::Uniform;
+    return i;
+}
+
+DirectIntegrator direct(Params& p) {
+    constexpr std::array kStrategies{DirectStrategy::Mis, DirectStrategy::Light, DirectStrategy::Bsdf,
+                                     DirectStrategy::Mis, DirectStrategy::Mis};
+    DirectIntegrator i;
+    i.max_depth = max_depth(p);
+    // "all" and "one" are pbrt-v3's: every light at each hit, or one of them. Both converge to the same.
+    i.strategy = kStrategies[p.choice("strategy", {"mis", "light", "bsdf", "all", "one"}, 0)];
+    i.hemisphere = hemisphere(p);
+    i.lights = light_sampling(p);
     return i;
 }
 
@@ -71,11 +103,8 @@ Integrator make_integrator(std::string const& type, Params& p) {
     if (type == "path" || type == "volpath") return path(p);
     if (type == "simplepath") return simple_path(p);
     if (type == "randomwalk") return random_walk(p);
-    if (type == "whitted") return WhittedIntegrator{max_depth(p)};
-    if (type == "direct" || type == "directlighting") {
-        p.find("strategy");
-        return DirectIntegrator{max_depth(p)};
-    }
+    if (type == "whitted") return WhittedIntegrator{max_depth(p), light_sampling(p)};
+    if (type == "direct" || type == "directlighting") return direct(p);
     constexpr std::array<std::string_view, 9> kKnown{
         "bdpt",     "mlt",           "sppm",     "lightpath", "ao", "ambientocclusion",
         "function", "simplevolpath", "photonmap"};

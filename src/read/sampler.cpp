@@ -29,6 +29,9 @@ SamplerOptions make_sampler(std::string const& type, Params& p) {
     SamplerOptions o;
     if (type == "stratified") {
         o = stratified(p);
+    } else if (type == "quadrant") {
+        // The report's: each four samples fall one into each quadrant.
+        o = {StratifiedSampler{2, 2, p.boolean("jitter", true)}, pixel_samples(p), {}};
     } else if (type == "independent") {
         o = {IndependentSampler{}, pixel_samples(p), {}};
     } else if (std::find(kSobol.begin(), kSobol.end(), type) != kSobol.end()) {
@@ -44,7 +47,7 @@ SamplerOptions make_sampler(std::string const& type, Params& p) {
                "\"");
     } else {
         p.fail("unknown sampler" + did_you_mean(type, {"zsobol", "sobol", "paddedsobol", "pmj02bn", "halton",
-                                                       "stratified", "independent"}));
+                                                       "stratified", "quadrant", "independent"}));
     }
     if (p.find("seed")) o.seed = p.integer("seed", 0);
     return o;

@@ -1,21 +1,27 @@
-// Direct light alone: emission seen, and light that scatters once, each found by light and by BSDF sampling (Veach 1997, 9.3).
+// Direct light alone: emission seen, and light that scatters once, found by light sampling, by BSDF sampling or by both
+// (Veach 1997, 9.3).
 // Mirrors and glass are followed by chance until the first surface that is neither.
 #include "walk.h"
 
 namespace nephroid {
 
 Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
+    bool const sample_lights = p.strategy != DirectStrategy::Bsdf;
+    bool const mis = p.strategy == DirectStrategy::Mis;
+    EmissionWeight const weight = mis             ? EmissionWeight::Mis
+                                  : sample_lights ? EmissionWeight::SpecularOnly
+                                                  : EmissionWeight::All;
     Spectrum radiance;
     Walk walk = Walk::from_camera(ray, c.lambda);
     bool scattered = false;
     Vertex v;
     for (;;) {
-        if (!advance(c, walk, EmissionWeight::Mis, v, radiance) || scattered) break;
+        if (!advance(c, walk, weight, v, radiance) || scattered) break;
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
         if (!is_delta(v.bsdf)) {
-            radiance += walk.beta * sample_direct(c, walk, v, true);
+            if (sample_lights) radiance += walk.beta * sample_direct(c, walk, v, mis);
             scattered = true;  // one more segment, to meet emission by scattering
         }
         if (!scatter(c, walk, v)) break;

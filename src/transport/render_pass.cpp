@@ -34,8 +34,12 @@ PreparedCamera camera_of(World const& world, Settings const& settings) {
 }
 
 HemisphereSampling hemisphere_of(Integrator const& integrator) {
-    auto const* path = std::get_if<PathIntegrator>(&integrator);
-    return path ? path->hemisphere : HemisphereSampling::Cosine;
+    return match(
+        integrator, [](WhittedIntegrator const&) { return HemisphereSampling::Cosine; },
+        [](auto const& i) { return i.hemisphere; });
+}
+LightSampling lights_of(Integrator const& integrator) {
+    return match(integrator, [](auto const& i) { return i.lights; });
 }
 
 /// Streams keep the numbers of different uses apart.
@@ -96,7 +100,8 @@ std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange pass
                                                : Wavelengths::spectral(sampler.next_1d());
                 CameraRay const camera = job.camera().ray(
                     Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
-                PathContext c{job, job.world(), lambda, sampler, stats, hemisphere_of(settings.integrator)};
+                PathContext c{job, job.world(), lambda, sampler, stats, hemisphere_of(settings.integrator),
+                              lights_of(settings.integrator)};
                 AovSample aov;
                 Spectrum const radiance_seen = match(settings.integrator, [&](auto const& integrator) {
                     return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);

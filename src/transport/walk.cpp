@@ -43,7 +43,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
     for (int i = 0; i < kMaxInterfaces; ++i) {
         if (!c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit)) {
             for (LightId const light : c.world.infinite_lights()) {
-                float const pdf = walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.ray.d);
+                float const pdf = walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
                 float const w = emission_weight(walk, weight, pdf);
                 if (w > 0.0f) radiance += walk.beta * c.world.environment(light, walk.ray.d, c.lambda) * w;
             }
@@ -52,7 +52,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
         if (hit.emits) {
             Spectrum const emitted = c.world.emitted(hit, -walk.ray.d, c.lambda);
             if (!emitted.is_black()) {
-                float const pdf = walk.specular ? 0.0f : c.world.light_pdf(hit, walk.from, walk.ray.d);
+                float const pdf = walk.specular ? 0.0f : c.world.light_pdf(hit, walk.from, c.lights, walk.ray.d);
                 radiance += walk.beta * emitted * emission_weight(walk, weight, pdf);
             }
         }
@@ -83,6 +83,7 @@ bool prepare(PathContext& c, Walk const& walk, Vertex& v) {
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     v.frame = frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
+    v.receiver = {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, spreads_through(v.bsdf)};
     return true;
 }
 
@@ -90,7 +91,7 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
     double const u_choose = c.sampler.next_1d_fine();
     Vec2 const u = c.sampler.next_2d();
-    auto const light = c.world.sample_light(v.hit.s.p, u_choose, u, c.lambda);
+    auto const light = c.world.sample_light(v.receiver, c.lights, u_choose, u, c.lambda);
     if (!light || light->radiance.is_black()) return {};
     Vec3 const wi_local = v.frame.to_local(light->wi);
     Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
@@ -119,7 +120,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.pdf;
-    walk.from = v.hit.s.p;
+    walk.from = v.receiver;
     walk.cone += v.hit.t;
     walk.ray = v.hit.spawn(normalize(v.frame.from_local(s.wi)));
     ++walk.vertex;

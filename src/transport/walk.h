@@ -35,6 +35,7 @@ struct PathContext {
     PathSampler& sampler;
     RayStats& stats;
     HemisphereSampling hemisphere = HemisphereSampling::Cosine;
+    LightSampling lights;
     bool tainted = false;  // a throughput was not a number: the sample does not count
 };
 
@@ -43,7 +44,7 @@ struct Walk {
     Ray ray;
     Spectrum beta;             // throughput so far
     std::uint32_t vertex = 0;  // how many vertices came before the one this ray looks for
-    Vec3 from{0, 0, 0};        // the last vertex that scattered, …
+    Receiver from;             // the last vertex that scattered, …
     float pdf = 0;             // … the density of the direction it chose, …
     bool specular = true;      // … or a delta (or the camera): then lights could not be sampled there
     float eta_scale = 1;       // product of eta^2: radiance squeezed into glass is no reason to end a path
@@ -55,7 +56,7 @@ struct Walk {
         w.ray = ray;
         // In rgb mode the fourth lane carries nothing.
         w.beta = lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
-        w.from = ray.o;
+        w.from.p = ray.o;
         return w;
     }
 };
@@ -66,6 +67,7 @@ struct Vertex {
     SurfaceHit hit;
     MaterialId material;     // of the hit; a mix has been resolved
     Frame frame;             // shading
+    Receiver receiver;       // of light, as `bsdf` scatters it
     Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
     Bsdf bsdf;
 };

@@ -155,8 +155,9 @@ Spectrum World::environment(LightId id, Vec3 w, Wavelengths const& lambda) const
     return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
 }
 
-std::optional<LightSample> World::sample_light(Vec3 p, double u_choose, Vec2 u,
+std::optional<LightSample> World::sample_light(Receiver const& to, LightSampling, double u_choose, Vec2 u,
                                                Wavelengths const& lambda) const {
+    Vec3 const p = to.p;
     if (lights_->choice.empty()) return std::nullopt;
     auto const chosen = lights_->choice.sample(u_choose);
     LightEntry const& entry = lights_->entries[chosen.index];
@@ -207,7 +208,7 @@ std::optional<LightSample> World::sample_area_light(LightEntry const& entry, flo
     return result;
 }
 
-float World::light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const {
+float World::light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling, Vec3 w) const {
     ObjectRecord const& record = parts_->records[hit.record];
     if (!record.emits() || lights_->choice.empty()) return 0.0f;
     InstanceRecord const* instance = hit.instance == kNoInstance ? nullptr : &parts_->instances[hit.instance];
@@ -216,10 +217,10 @@ float World::light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const {
     if (!(cos_light > 0.0f)) return 0.0f;
     float const known = lights_->entries[entry].area_pdf;
     float const area_pdf = known > 0.0f ? known : part_pdf(record, instance, hit.part, hit.hit_uv, hit.s.ng);
-    return lights_->choice.pmf(entry) * area_pdf * distance_squared(hit.s.p, p) / cos_light;
+    return lights_->choice.pmf(entry) * area_pdf * distance_squared(hit.s.p, to.p) / cos_light;
 }
 
-float World::infinite_light_pdf(LightId id, Vec3 w) const {
+float World::infinite_light_pdf(LightId id, Receiver const&, LightSampling, Vec3 w) const {
     if (lights_->choice.empty()) return 0.0f;
     return lights_->choice.pmf(lights_->entry_of_light[id.value]) *
            environment_pdf((*scene_)[id], lights_->data[id.value], w);

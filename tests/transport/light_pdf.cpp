@@ -21,7 +21,7 @@ double compare(World const& world, Vec3 p, int n) {
     for (int i = 0; i < n; ++i) {
         float const choose = random.unit();
         Vec2 const u{random.unit(), random.unit()};
-        auto const s = world.sample_light(p, choose, u, Wavelengths::rgb());
+        auto const s = world.sample_light(Receiver{p}, {}, choose, u, Wavelengths::rgb());
         if (!s || s->delta) continue;
         SurfaceHit hit;
         bool const found = world.intersect({p, s->wi}, kInfinity, RayKind::Bounce, stats, hit);
@@ -29,14 +29,14 @@ double compare(World const& world, Vec3 p, int n) {
         double tolerance = 1e-4;
         if (s->at_infinity) {
             if (found) continue;
-            pdf = world.infinite_light_pdf(world.infinite_lights().front(), s->wi);
+            pdf = world.infinite_light_pdf(world.infinite_lights().front(), Receiver{p}, {}, s->wi);
         } else {
             // The far side of a closed light is sampled too, and not seen.
             if (!found || !hit.emits || length(hit.s.p - s->p) > 1e-4f * length(s->p - p)) continue;
             // Seen at a grazing angle, a curved surface's cosine magnifies the rounding of the direction.
             float const cosine = abs_dot(hit.s.ng, s->wi);
             tolerance = std::max(1e-4, 2e-6 / static_cast<double>(cosine * cosine));
-            pdf = world.light_pdf(hit, p, s->wi);
+            pdf = world.light_pdf(hit, Receiver{p}, {}, s->wi);
             // At an edge the ray may meet the next face.
             if (length(hit.s.ng - s->n) > 1e-2f) {
                 ++edges;
@@ -132,9 +132,9 @@ TEST_CASE("light pdf: environment pictures") {
         for (int i = 0; i < 20000; ++i) {
             float const choose = u.unit();
             Vec2 const at{u.unit(), u.unit()};
-            auto const sample = world.sample_light({0, 0, 0}, choose, at, Wavelengths::rgb());
+            auto const sample = world.sample_light({}, {}, choose, at, Wavelengths::rgb());
             REQUIRE(sample);
-            float const pdf = world.infinite_light_pdf(LightId{0}, sample->wi);
+            float const pdf = world.infinite_light_pdf(LightId{0}, {}, {}, sample->wi);
             if (!(std::abs(pdf / sample->pdf - 1) <= 1e-4f)) ++wrong;
             Spectrum const seen = world.environment(sample->wi, Wavelengths::rgb());
             CHECK(seen[1] == doctest::Approx(sample->radiance[1]).epsilon(1e-3));
@@ -147,9 +147,9 @@ TEST_CASE("light pdf: environment pictures") {
         int const n = 400000;
         for (int i = 0; i < n; ++i) {
             Vec3 const w = square_to_uniform_sphere({u.unit(), u.unit()});
-            density += static_cast<double>(world.infinite_light_pdf(LightId{0}, w));
+            density += static_cast<double>(world.infinite_light_pdf(LightId{0}, {}, {}, w));
             radiance += static_cast<double>(world.environment(w, Wavelengths::rgb())[1]);
-            auto const s1 = world.sample_light({0, 0, 0}, u.unit(), {u.unit(), u.unit()}, Wavelengths::rgb());
+            auto const s1 = world.sample_light({}, {}, u.unit(), {u.unit(), u.unit()}, Wavelengths::rgb());
             sampled += static_cast<double>(s1->radiance[1] / s1->pdf);
         }
         double const sphere = 4 * 3.14159265358979323846 / n;

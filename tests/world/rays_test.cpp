@@ -196,7 +196,7 @@ TEST_CASE("no light shades itself, wherever it is seen from") {
                     if (!world.intersect({at - Vec3{0, 0, unit}, {0, 0, 1}}, kInfinity, RayKind::Camera,
                                          stats, floor))
                         continue;
-                    auto const light = world.sample_light(floor.s.p, random.unit(),
+                    auto const light = world.sample_light(Receiver{floor.s.p}, {}, random.unit(),
                                                           {random.unit(), random.unit()}, Wavelengths::rgb());
                     if (!light || light->radiance.is_black()) continue;
                     // Far away, corners are off by up to 1/128, so that the two triangles of a face make an angle.

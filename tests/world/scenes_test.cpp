@@ -358,7 +358,7 @@ TEST_CASE("an empty scene, and one without lights, are black") {
     CHECK_FALSE(world.intersect({{0, 0, 0}, {0, 0, 1}}, kInfinity, RayKind::Camera, stats, hit));
     CHECK(world.bounds().empty());
     CHECK(world.counts().objects == 0);
-    CHECK_FALSE(world.sample_light({0, 0, 0}, 0.5f, {0.5f, 0.5f}, Wavelengths::rgb()).has_value());
+    CHECK_FALSE(world.sample_light({}, {}, 0.5f, {0.5f, 0.5f}, Wavelengths::rgb()).has_value());
     CHECK(world.environment({0, 0, 1}, Wavelengths::rgb()).is_black());
     CHECK(brightness(picture(empty)) == 0);
 

@@ -57,10 +57,12 @@ float pdf(DiffuseBsdf const& b, Vec3 wo, Vec3 wi, HemisphereSampling how);
 std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float uc, Vec2 u, Mode mode,
                                  HemisphereSampling how);
 inline Spectrum albedo(DiffuseBsdf const& b, Vec3) { return b.reflectance; }
+inline bool spreads_through(DiffuseBsdf const&) { return false; }
 
 // --- the smooth ones: nothing but delta parts ----------------------------------------------------------------------------
 #define NEPHROID_DELTA_BSDF(B)                                                         \
     inline bool is_delta(B const&) { return true; }                                    \
+    inline bool spreads_through(B const&) { return false; }                            \
     inline Spectrum evaluate(B const&, Vec3, Vec3, Mode) { return {}; }                \
     inline float pdf(B const&, Vec3, Vec3, HemisphereSampling) { return 0.0f; }        \
     std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mode, \
@@ -74,6 +76,7 @@ NEPHROID_DELTA_BSDF(ConductorBsdf)
 template <class B>
 concept ScatteringModel = requires(B const& b, Vec3 w, float uc, Vec2 u, Mode m, HemisphereSampling how) {
     { is_delta(b) } -> std::same_as<bool>;
+    { spreads_through(b) } -> std::same_as<bool>;
     { evaluate(b, w, w, m) } -> std::same_as<Spectrum>;
     { pdf(b, w, w, how) } -> std::same_as<float>;
     { sample(b, w, uc, u, m, how) } -> std::same_as<std::optional<BsdfSample>>;
@@ -88,6 +91,10 @@ static_assert(ScatteringModel<ConductorBsdf>);
 /// Nothing but delta parts: no light can be sampled towards.
 inline bool is_delta(Bsdf const& bsdf) {
     return match(bsdf, [](auto const& b) { return is_delta(b); });
+}
+/// `evaluate` may be above 0 with wo and wi on different sides.
+inline bool spreads_through(Bsdf const& bsdf) {
+    return match(bsdf, [](auto const& b) { return spreads_through(b); });
 }
 inline Spectrum evaluate(Bsdf const& bsdf, Vec3 wo, Vec3 wi, Mode mode) {
     return match(bsdf, [&](auto const& b) { return evaluate(b, wo, wi, mode); });

@@ -16,6 +16,14 @@
 
 namespace nephroid {
 
+/// What a light is sampled for. The choice of a light, and of a point on it, may use the cosine at the receiver; where the
+/// normal is 0 (a camera, a point in a volume) nothing is known about it.
+struct Receiver {
+    Vec3 p{0, 0, 0};
+    Vec3 n{0, 0, 0};         // unit, shading; where `both_sides` is false, on the side that light is wanted from
+    bool both_sides = true;  // light from behind counts too (transmission)
+};
+
 /// Light that arrives at a point from one direction.
 struct LightSample {
     Spectrum radiance;  // for delta lights the irradiance on a facing surface: divide by pdf = 1

@@ -56,6 +56,27 @@ struct Roulette {
 };
 enum class HemisphereSampling : std::uint8_t { Cosine, Uniform };
 
+/// Which light is asked.
+enum class LightChoice : std::uint8_t {
+    Bvh,    // by what it may contribute at the receiver (Conty & Kulla 2018)
+    Power,  // by its power
+    Uniform
+};
+/// Where on an emitting shape a point is drawn.
+enum class ShapeSampling : std::uint8_t {
+    SolidAngle,      // uniform in what the receiver sees of it, where that can be done
+    Area,            // uniform over the whole surface
+    VisibleArea,     // box: the visible faces, chosen by area, uniform over each
+    Projected,       // box: the visible faces, chosen by the area that they show to the receiver
+    VisibleUnweighed // box: one visible face is as likely as another, and the density says otherwise: biased, and kept to show it
+};
+struct LightSampling {
+    LightChoice choice = LightChoice::Bvh;
+    ShapeSampling shapes = ShapeSampling::SolidAngle;
+};
+/// What finds direct light.
+enum class DirectStrategy : std::uint8_t { Mis, Light, Bsdf };
+
 /// Unidirectional path tracing with next-event estimation and MIS.
 struct PathIntegrator {
     int max_depth = 5;  // bounces; depth 0 sees emission only
@@ -64,14 +85,19 @@ struct PathIntegrator {
     bool sample_bsdf_mis =
         true;  // false: with sample_lights, emission hit by chance counts only where lights cannot be sampled
     HemisphereSampling hemisphere = HemisphereSampling::Cosine;
+    LightSampling lights;
 };
 /// Whitted 1980: direct light at diffuse surfaces, both branches of a tree at specular ones.
 struct WhittedIntegrator {
     int max_depth = 5;
+    LightSampling lights;
 };
-/// Direct light with MIS, specular chains followed by chance.
+/// Direct light alone, specular chains followed by chance.
 struct DirectIntegrator {
     int max_depth = 5;
+    DirectStrategy strategy = DirectStrategy::Mis;
+    HemisphereSampling hemisphere = HemisphereSampling::Cosine;
+    LightSampling lights;
 };
 using Integrator = std::variant<PathIntegrator, WhittedIntegrator, DirectIntegrator>;
 

@@ -64,13 +64,14 @@ class World {
     Spectrum environment(LightId light, Vec3 w, Wavelengths const& lambda) const;
     [[nodiscard]] std::vector<LightId> const& infinite_lights() const;
 
-    /// One light chosen by power (u_choose), one direction to it from p (u). The pdf is by solid angle and contains the
-    /// probability of the choice; for delta lights it is that probability alone. Nothing when the light cannot reach p.
-    std::optional<LightSample> sample_light(Vec3 p, double u_choose, Vec2 u, Wavelengths const& lambda) const;
-    /// The density with which sample_light(p) would have found the emitting point `hit` seen along w.
-    float light_pdf(SurfaceHit const& hit, Vec3 p, Vec3 w) const;
+    /// One light chosen (u_choose), one direction to it from the receiver (u). The pdf is by solid angle and contains the
+    /// probability of the choice; for delta lights it is that probability alone. Nothing when the light cannot reach it.
+    std::optional<LightSample> sample_light(Receiver const& to, LightSampling how, double u_choose, Vec2 u,
+                                            Wavelengths const& lambda) const;
+    /// The density with which sample_light(to) would have found the emitting point `hit` seen along w.
+    float light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling how, Vec3 w) const;
     /// … or the infinite light along w.
-    float infinite_light_pdf(LightId light, Vec3 w) const;
+    float infinite_light_pdf(LightId light, Receiver const& to, LightSampling how, Vec3 w) const;
 
   private:
     friend World compile(Scene scene);
