@@ -146,13 +146,12 @@ Spectrum World::emitted(Emitter const& e, Vec3 n, Vec2 uv, Vec3 w, Wavelengths c
 
 Spectrum World::environment(Vec3 w, Wavelengths const& lambda) const {
     Spectrum sum;
-    for (LightId const id : lights_->infinite)
-        sum += environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
+    for (LightId const id : lights_->infinite) sum += environment(id, w, lambda);
     return sum;
 }
 std::vector<LightId> const& World::infinite_lights() const { return lights_->infinite; }
 Spectrum World::environment(LightId id, Vec3 w, Wavelengths const& lambda) const {
-    return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, w, lambda);
+    return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, {0, 0, 0}, w, lambda);
 }
 
 std::optional<LightSample> World::sample_light(Receiver const& to, LightSampling, double u_choose, Vec2 u,
@@ -220,10 +219,10 @@ float World::light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling,
     return lights_->choice.pmf(entry) * area_pdf * distance_squared(hit.s.p, to.p) / cos_light;
 }
 
-float World::infinite_light_pdf(LightId id, Receiver const&, LightSampling, Vec3 w) const {
+float World::infinite_light_pdf(LightId id, Receiver const& to, LightSampling, Vec3 w) const {
     if (lights_->choice.empty()) return 0.0f;
     return lights_->choice.pmf(lights_->entry_of_light[id.value]) *
-           environment_pdf((*scene_)[id], lights_->data[id.value], w);
+           environment_pdf((*scene_)[id], lights_->data[id.value], to.p, w);
 }
 
 }  // namespace nephroid

@@ -36,9 +36,11 @@ struct Lit {
         return sample_light(light(), data, assets, p, u, w);
     }
     [[nodiscard]] Spectrum radiance(Vec3 w, Wavelengths const& l = Wavelengths::rgb()) const {
-        return environment_radiance(light(), data, assets, w, l);
+        return environment_radiance(light(), data, assets, {}, w, l);
     }
-    [[nodiscard]] double pdf(Vec3 w) const { return static_cast<double>(environment_pdf(light(), data, w)); }
+    [[nodiscard]] double pdf(Vec3 w) const {
+        return static_cast<double>(environment_pdf(light(), data, {}, w));
+    }
 };
 
 double luminance_of(Spectrum rgb) { return static_cast<double>(luminance({rgb[0], rgb[1], rgb[2]})); }

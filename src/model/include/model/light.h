@@ -20,7 +20,7 @@ namespace nephroid {
 /// normal is 0 (a camera, a point in a volume) nothing is known about it.
 struct Receiver {
     Vec3 p{0, 0, 0};
-    Vec3 n{0, 0, 0};         // unit, shading; where `both_sides` is false, on the side that light is wanted from
+    Vec3 n{0, 0, 0};  // unit, shading; where `both_sides` is false, on the side that light is wanted from
     bool both_sides = true;  // light from behind counts too (transmission)
 };
 
@@ -62,11 +62,11 @@ std::optional<LightSample> sample_light(Light const& light, LightData const& dat
                                         Vec3 p, Vec2 u, Wavelengths const& lambda);
 bool is_infinite(Light const& light);
 bool is_delta(Light const& light);
-/// Radiance of an infinite light along direction w (from the receiver outwards); 0 for the others.
-Spectrum environment_radiance(Light const& light, LightData const& data, Assets const& assets, Vec3 w,
+/// Radiance of an infinite light at the receiver p along direction w (from there outwards); 0 for the others.
+Spectrum environment_radiance(Light const& light, LightData const& data, Assets const& assets, Vec3 p, Vec3 w,
                               Wavelengths const& lambda);
-/// Density by solid angle with which sample_light finds direction w; 0 for delta lights.
-float environment_pdf(Light const& light, LightData const& data, Vec3 w);
+/// Density by solid angle with which sample_light finds direction w at p; 0 for delta lights.
+float environment_pdf(Light const& light, LightData const& data, Vec3 p, Vec3 w);
 
 /// Total power, averaged over the visible spectrum (or rgb): good for choosing among lights. W.
 float power(Light const& light, LightData const& data, Assets const& assets, BoundingSphere const& scene);
