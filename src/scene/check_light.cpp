@@ -49,6 +49,7 @@ void check_light(Check const& c, Light const& light) {
 
 void check_area_light(Check const& c, AreaLight const& light) {
     check_ids(c, light.image, "the light");
+    check_ids(c, light.texture, "the light");
     check_spd(c, light.radiance, "the light's spectrum");
     check_strength(c, light.scale, light.power);
 }

@@ -34,6 +34,7 @@ struct LightSample {
     Vec3 p{0, 0, 0};        // where it comes from, unless at infinity …
     Vec3 p_error{0, 0, 0};  // … and its rounding bound and surface normal (0 for a point light)
     Vec3 n{0, 0, 0};
+    Vec2 uv{0, 0};  // of the surface, where its emission is textured
 };
 
 /// Importance of an environment picture over its square: luminance (times the map's Jacobian), bilinear footprints included.

@@ -54,7 +54,8 @@ struct Light {
 /// Emission of a shape's surface, to the side of its normal or to both.
 struct AreaLight {
     Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
-    ImageId image;  // when valid: radiance over the shape's (u, v), times scale
+    ImageId image;      // when valid: radiance over the shape's (u, v), times scale; or …
+    TextureId texture;  // … a spectrum texture: `radiance` then only names the illuminant
     float scale = 1, power = -1;
     bool two_sided = false;
     SourceLocation where;
