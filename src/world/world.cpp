@@ -15,7 +15,7 @@ std::size_t LightTable::bytes() const {
                     entries.size() * sizeof(LightEntry) + entry_of_light.size() * sizeof(std::uint32_t) +
                     choice.bytes();
     for (LightData const& d : data)
-        if (d.table) n += d.table->distribution.bytes();
+        if (d.table) n += d.table->bytes();
     return n;
 }
 
