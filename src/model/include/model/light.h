@@ -7,6 +7,7 @@
 #include "math/frame.h"
 #include "math/ray.h"
 #include "model/assets.h"
+#include "model/light_bounds.h"
 #include "model/texture.h"
 #include "sampling/distribution.h"
 #include "sampling/warp.h"
@@ -52,16 +53,6 @@ struct EmissionSample {
 /// The densities of an EmissionSample. Delta parts give 0.
 struct EmissionDensity {
     float position = 0, direction = 0;
-};
-
-/// What a light can send where (Conty & Kulla 2018, "Importance Sampling of Many Lights"), for a tree of lights.
-struct LightBounds {
-    Bounds3 box;
-    Vec3 axis{0, 0, 1};
-    float intensity = 0;  // greatest radiant intensity, W/sr; of the spectrum's largest value, as in power()
-    float cos_normals = -1;  // of theta_o: normals lie within this angle of the axis
-    float cos_emission = 0;  // of theta_e, above 0: light leaves within this angle of a normal
-    bool two_sided = false;
 };
 
 /// Importance of a picture (or table) over its square: luminance times the map's Jacobian, of an environment with its bilinear
@@ -118,7 +109,7 @@ std::optional<EmissionSample> sample_emission(Light const& light, LightData cons
 /// The densities with which sample_emission finds the ray through p (any of its points) that travels along w.
 EmissionDensity emission_density(Light const& light, LightData const& data, BoundingSphere const& scene,
                                  Vec3 p, Vec3 w);
-/// Nothing for lights at infinity.
+/// Nothing for lights at infinity. Its intensity is of the spectrum's largest value, as in power().
 std::optional<LightBounds> light_bounds(Light const& light, LightData const& data, Assets const& assets);
 
 /// Emission with scale and, where given, power or illuminance taken into account: what spd * result emits.
