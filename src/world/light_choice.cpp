@@ -64,7 +64,7 @@ std::size_t LightTable::bytes() const {
                     boxes.size() * sizeof(BoxLight) + places.size() * sizeof(LightPlace) +
                     pictures.size() * sizeof(LightPicture) + by_power.bytes() + tree.bytes();
     for (LightData const& d : data)
-        if (d.table) n += d.table->distribution.bytes();
+        if (d.table) n += d.table->bytes();
     for (LightPicture const& p : pictures) n += p.distribution.bytes();
     return n;
 }

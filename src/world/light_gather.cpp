@@ -180,20 +180,6 @@ Bounds3 mapped(Bounds3 const& b, AffineMap const& map) {
     return r;
 }
 
-// until the model has it
-std::optional<LightBounds> light_bounds(Light const& light, LightData const& d, Assets const&) {
-    if (is_infinite(light) || std::holds_alternative<DistantLight>(light.kind)) return std::nullopt;
-    LightBounds b;
-    b.box.add(d.position);
-    b.intensity = d.emission.max_value();
-    if (std::holds_alternative<SpotLight>(light.kind)) {
-        b.axis = d.direction;
-        b.cos_normals = d.cos_inner;
-        b.cos_emission = std::cos(std::acos(d.cos_outer) - std::acos(d.cos_inner));
-    }
-    return b;
-}
-
 struct Gatherer {
     Scene& scene;
     Assets& assets;
