@@ -207,6 +207,25 @@ float pdf(Emitting const& emitter, Distribution2D const* picture, Receiver const
     return picture ? lerp(kPictureShare, seen, by_area(picture->pdf(emitter.square(hit)))) : seen;
 }
 
+/// The same for points that are drawn by area: a picture covers all that is bright, but for what falls between its cells.
+constexpr float kPictureShareByArea = 0.875f;
+
+/// A face by area, and a point of it uniformly.
+float sample_box_area(BoxLight const& box, Vec2 u, LightSample& s) {
+    float const half = box.area[0] + box.area[1] + box.area[2];
+    float left = u.x * 2.0f * half;
+    std::uint32_t face = 0;
+    while (face < 5 && left >= box.area[face / 2]) left -= box.area[face++ / 2];
+    std::size_t const axis = face / 2;
+    bool const far_end = face % 2 != 0;
+    u.x = clamp(left / box.area[axis], 0.0f, kOneMinusEpsilon);
+    s.p = box.corner + u.x * box.edge[(axis + 1) % 3] + u.y * box.edge[(axis + 2) % 3];
+    if (far_end) s.p += box.edge[axis];
+    s.p_error = box.p_error;
+    s.n = far_end == box.inwards ? -box.out[axis] : box.out[axis];
+    return 0.5f / half;
+}
+
 /// f(how the entry is an emitter).
 template <class F>
 auto with_emitter(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
@@ -229,14 +248,17 @@ auto with_emitter(LightTable const& lights, WorldParts const& parts, LightEntry 
     }
 }
 
+SeenBox seen_box(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
+                 ShapeSampling how) {
+    return SeenBox(lights.boxes[e.more], to, how,
+                   lights.emitters[parts.records[e.record].emitter].light->two_sided);
+}
+
 }  // namespace
 
 bool sample_emitter(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
                     Receiver const& to, ShapeSampling how, Vec2 u, LightSample& s) {
-    if (e.shape == LightShape::Box)
-        return SeenBox(lights.boxes[e.more], to, how,
-                       lights.emitters[parts.records[e.record].emitter].light->two_sided)
-            .sample(u, s);
+    if (e.shape == LightShape::Box) return seen_box(lights, parts, e, to, how).sample(u, s);
     Distribution2D const* picture = picture_of(lights, e, how);
     return with_emitter(lights, parts, e, to, how,
                         [&](auto const& emitter) { return sample(emitter, picture, to, u, s); });
@@ -244,13 +266,36 @@ bool sample_emitter(LightTable const& lights, WorldParts const& parts, LightEntr
 
 float emitter_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
                   ShapeSampling how, SurfaceHit const& hit, Vec3 w) {
-    if (e.shape == LightShape::Box)
-        return SeenBox(lights.boxes[e.more], to, how,
-                       lights.emitters[parts.records[e.record].emitter].light->two_sided)
-            .pdf(hit.part, hit.s.p, w);
+    if (e.shape == LightShape::Box) return seen_box(lights, parts, e, to, how).pdf(hit.part, hit.s.p, w);
     Distribution2D const* picture = picture_of(lights, e, how);
     return with_emitter(lights, parts, e, to, how,
                         [&](auto const& emitter) { return pdf(emitter, picture, to, hit, w); });
+}
+
+float sample_emitter_area(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Vec2 u,
+                          LightSample& s) {
+    if (e.shape == LightShape::Box) return sample_box_area(lights.boxes[e.more], u, s);
+    Distribution2D const* picture = picture_of(lights, e, ShapeSampling::SolidAngle);
+    return with_emitter(lights, parts, e, {}, ShapeSampling::Area, [&](auto const& emitter) {
+        if (!picture) return emitter.draw_by_area(u, s);
+        bool const by_picture = u.x < kPictureShareByArea;
+        u.x = min(by_picture ? u.x / kPictureShareByArea
+                             : (u.x - kPictureShareByArea) / (1.0f - kPictureShareByArea),
+                  kOneMinusEpsilon);
+        if (by_picture) u = picture->sample(u);
+        return emitter.draw_by_area(u, s) * lerp(kPictureShareByArea, 1.0f, picture->pdf(u));
+    });
+}
+
+float emitter_area_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
+                       SurfaceHit const& hit) {
+    if (e.shape == LightShape::Box) return e.area_pdf;
+    Distribution2D const* picture = picture_of(lights, e, ShapeSampling::SolidAngle);
+    return with_emitter(lights, parts, e, {}, ShapeSampling::Area, [&](auto const& emitter) {
+        float const uniform = emitter.area_pdf(hit);
+        return picture ? uniform * lerp(kPictureShareByArea, 1.0f, picture->pdf(emitter.square(hit)))
+                       : uniform;
+    });
 }
 
 }  // namespace nephroid

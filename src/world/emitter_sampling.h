@@ -16,4 +16,12 @@ bool sample_emitter(LightTable const& lights, WorldParts const& parts, LightEntr
 float emitter_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
                   ShapeSampling how, SurfaceHit const& hit, Vec3 w);
 
+/// A point of the emitter, whoever looks: uniform by area, or more often where its picture is bright. Fills s.p, p_error, n and uv;
+/// returns the density by area.
+float sample_emitter_area(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Vec2 u,
+                          LightSample& s);
+/// The density with which it finds the point of the hit.
+float emitter_area_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
+                       SurfaceHit const& hit);
+
 }  // namespace nephroid

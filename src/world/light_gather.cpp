@@ -479,6 +479,9 @@ void gather_lights(Scene& scene, Assets& assets, WorldParts& parts, LightTable& 
     lights.entries.shrink_to_fit();
     lights.entry_of_part.shrink_to_fit();
     lights.by_power = AliasTable(g.powers);
+    double sum = 0;
+    for (float const p : g.powers) sum += static_cast<double>(p);
+    lights.total_power = static_cast<float>(sum);
     lights.tree = LightTree(g.bounds);
 }
 

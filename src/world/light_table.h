@@ -1,10 +1,10 @@
 // All lights of a world: what they emit, where they are, and how one of them is chosen.
 #pragma once
 
-#include "light_tree.h"
 #include "model/light.h"
 #include "records.h"
 #include "sampling/distribution.h"
+#include "world/light_tree.h"
 
 #include <vector>
 
@@ -88,6 +88,7 @@ class LightTable {
     std::vector<LightPlace> places;
     std::vector<LightPicture> pictures;
     AliasTable by_power;
+    float total_power = 0;
     LightTree tree;  // of all but the boundless ones; its lights are entries
 
     struct Choice {

@@ -1,4 +1,4 @@
-#include "light_tree.h"
+#include "world/light_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@ namespace nephroid {
 /// Whether solid angle is worth its price there: the emitter is large as seen from the receiver, or one end of it is that much
 /// farther away than the other (docs/decisions/0005).
 inline bool is_near(LightEntry const& e, Receiver const& to) {
-    constexpr float kLarge = 1;       // squared diagonal over squared distance
+    constexpr float kLarge = 1;      // squared diagonal over squared distance
     constexpr float kUneven = 0.5f;  // extent along the line of sight, over the distance
     float const part = e.shape == LightShape::Triangle ? 1.0f / 3.0f : 0.5f;
     Vec3 const v = e.corner + part * (e.edge1 + e.edge2) - to.p;

@@ -2,6 +2,7 @@
 #include "emission.h"
 #include "emitter_sampling.h"
 #include "light_table.h"
+#include "sampling/warp.h"
 #include "world/world.h"
 #include "world_parts.h"
 
@@ -62,11 +63,14 @@ std::optional<LightSample> World::sample_area_light(LightEntry const& entry, flo
     return result;
 }
 
-float World::light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling how, Vec3 w) const {
-    ObjectRecord const& record = parts_->records[hit.record];
-    if (!record.emits()) return 0.0f;
+std::uint32_t World::entry_of(SurfaceHit const& hit) const {
     std::uint32_t const first = hit.instance == kNoInstance ? 0 : parts_->instances[hit.instance].first_light;
-    std::uint32_t const entry = lights_->entry_of_part[first + record.first_light + hit.part];
+    return lights_->entry_of_part[first + parts_->records[hit.record].first_light + hit.part];
+}
+
+float World::light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling how, Vec3 w) const {
+    if (!hit.emits) return 0.0f;
+    std::uint32_t const entry = entry_of(hit);
     float const pmf = lights_->pmf(to, how.choice, entry);
     if (!(pmf > 0.0f)) return 0.0f;
     float const pdf = emitter_pdf(*lights_, *parts_, lights_->entries[entry], to, how.shapes, hit, w);
@@ -77,5 +81,66 @@ float World::infinite_light_pdf(LightId id, Receiver const& to, LightSampling ho
     float const pmf = lights_->pmf(to, how.choice, lights_->entry_of_light[id.value]);
     return pmf > 0.0f ? pmf * environment_pdf((*scene_)[id], lights_->data[id.value], to.p, w) : 0.0f;
 }
+
+std::optional<LightRay> World::sample_emission(double u_choose, Vec2 u_position, Vec2 u_direction,
+                                               Wavelengths const& lambda) const {
+    std::optional<LightRay> result;
+    if (lights_->by_power.empty()) return result;
+    auto const chosen = lights_->by_power.sample(u_choose);
+    LightEntry const& entry = lights_->entries[chosen.index];
+    if (entry.shape == LightShape::NoSurface) {
+        auto const e =
+            nephroid::sample_emission((*scene_)[LightId{entry.part}], lights_->data[entry.part], *assets_,
+                                      bounding_sphere(bounds_), u_position, u_direction, lambda);
+        if (e) result.emplace(LightRay{*e, chosen.index, chosen.pmf});
+        return result;
+    }
+    Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
+    LightSample point;
+    float const area_pdf = sample_emitter_area(*lights_, *parts_, entry, u_position, point);
+    if (!(area_pdf > 0.0f) || !std::isfinite(area_pdf)) return result;
+    // Lambert's emission goes out by the cosine, on either side where both shine.
+    bool back = false;
+    if (emitter.light->two_sided) {
+        back = u_direction.x >= 0.5f;
+        u_direction.x = min(2.0f * (back ? u_direction.x - 0.5f : u_direction.x), kOneMinusEpsilon);
+    }
+    Vec3 const local = square_to_cosine_hemisphere(u_direction);
+    float const direction_pdf = cosine_hemisphere_pdf(local.z) * (emitter.light->two_sided ? 0.5f : 1.0f);
+    if (!(direction_pdf > 0.0f)) return result;
+    LightRay& r = result.emplace();
+    EmissionSample& e = r.emission;
+    e.n = back ? -point.n : point.n;
+    e.ray = {point.p, normalize(frame_from_z(e.n).from_local(local))};
+    e.p_error = point.p_error;
+    e.radiance = emission_at(*assets_, emitter, point.p, point.uv, lambda);
+    e.pdf_position = area_pdf;
+    e.pdf_direction = direction_pdf;
+    r.light = chosen.index;
+    r.choice = chosen.pmf;
+    return result;
+}
+
+EmissionDensity World::emission_density(SurfaceHit const& from, Vec3 w) const {
+    EmissionDensity d;
+    if (!from.emits || lights_->by_power.empty()) return d;
+    std::uint32_t const entry = entry_of(from);
+    bool const two_sided = lights_->emitters[parts_->records[from.record].emitter].light->two_sided;
+    float const cosine = two_sided ? abs_dot(from.s.ng, w) : dot(from.s.ng, w);
+    d.position =
+        lights_->by_power.pmf(entry) * emitter_area_pdf(*lights_, *parts_, lights_->entries[entry], from);
+    d.direction = cosine_hemisphere_pdf(cosine) * (two_sided ? 0.5f : 1.0f);
+    return d;
+}
+
+EmissionDensity World::emission_density(LightId id, Vec3 p, Vec3 w) const {
+    if (lights_->by_power.empty()) return {};
+    EmissionDensity d =
+        nephroid::emission_density((*scene_)[id], lights_->data[id.value], bounding_sphere(bounds_), p, w);
+    d.position *= lights_->by_power.pmf(lights_->entry_of_light[id.value]);
+    return d;
+}
+
+float World::total_power() const { return lights_->total_power; }
 
 }  // namespace nephroid

@@ -33,6 +33,25 @@ struct LightEntry;
 struct WorldParts;
 struct TraceSums;  // world/floor.h
 
+/// A ray of light, and who sent it.
+struct LightRay {
+    EmissionSample emission;  // ray.o lies on the surface: move it off by p_error
+    std::uint32_t light = 0;  // of all that there are to choose from (WorldCounts::lights)
+    float choice = 0;         // the probability of having chosen it
+
+    /// Where the ray begins.
+    [[nodiscard]] Ray start() const {
+        EmissionSample const& e = emission;
+        return {e.n == Vec3(0) ? e.ray.o : offset_ray_origin(e.ray.o, e.p_error, e.n, e.ray.d), e.ray.d};
+    }
+    /// Power that the ray stands for, when one is sent.
+    [[nodiscard]] Spectrum power() const {
+        EmissionSample const& e = emission;
+        float const cosine = e.n == Vec3(0) ? 1.0f : abs_dot(e.n, e.ray.d);
+        return e.radiance * (cosine / (e.pdf_position * e.pdf_direction * choice));
+    }
+};
+
 class World {
   public:
     World(World&&) noexcept;
@@ -74,8 +93,19 @@ class World {
     /// … or the infinite light along w.
     float infinite_light_pdf(LightId light, Receiver const& to, LightSampling how, Vec3 w) const;
 
+    /// Light on its way from a source, for tracing forward. The source is chosen by power.
+    std::optional<LightRay> sample_emission(double u_choose, Vec2 u_position, Vec2 u_direction,
+                                            Wavelengths const& lambda) const;
+    /// The densities with which sample_emission sends light from an emitting point along w, the choice of the light in `position`.
+    EmissionDensity emission_density(SurfaceHit const& from, Vec3 w) const;
+    /// … or from an infinite light through p along w (the direction in which it travels).
+    EmissionDensity emission_density(LightId light, Vec3 p, Vec3 w) const;
+    /// Power of all lights in W, of the spectrum's largest value: what sample_emission chooses by.
+    float total_power() const;
+
   private:
     friend World compile(Scene scene);
+    [[nodiscard]] std::uint32_t entry_of(SurfaceHit const& hit) const;
     friend TraceSums trace_only(World const& world, std::span<RecordedRay const> rays);
     World();
     void complete(RawHit const& raw, SurfaceHit& hit) const;
