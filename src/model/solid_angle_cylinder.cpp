@@ -8,28 +8,39 @@ namespace {
 
 float below_one(double x) { return clamp(static_cast<float>(x), 0.0f, kOneMinusEpsilon); }
 
-/// The sines of i / N quarter turns, made by the compiler from the series; backwards they are the cosines.
+/// Sines and cosines of i / N quarter turns (`around`: half turns), made by the compiler from the series.
 template <std::size_t N>
-constexpr std::array<double, N + 1> quarter_sines() {
-    std::array<double, N + 1> r{};
-    for (std::size_t i = 0; i <= N; ++i) {
+struct Turns {
+    std::array<double, N + 1> sine{}, cosine{};
+    constexpr explicit Turns(bool around) {
+        for (std::size_t i = 0; i <= N; ++i) {
+            double const s = small_sine(i);
+            double const c = small_sine(N - i);
+            sine[i] = around ? 2 * s * c : s;
+            cosine[i] = around ? (c - s) * (c + s) : c;
+        }
+    }
+    static constexpr double small_sine(std::size_t i) {
         double const x = kPiDouble / 2 * static_cast<double>(i) / N;
         double term = x;
         double sum = x;
         for (int k = 1; k <= 12; ++k) sum += term *= -x * x / ((2 * k) * (2 * k + 1));
-        r[i] = sum;
+        return sum;
     }
-    return r;
-}
+};
+
+/// What a node has at least of its neighbour's density.
+constexpr float kLeast = 0.1f;
 
 /// z / sqrt(d^2 + z^2) at hi less that at lo, lo <= hi: what a column at the distance d between these heights takes of the solid
-/// angle over its azimuth. A quotient where the difference would cancel.
-double column_height(double d, double lo, double hi) {
+/// angle over its azimuth. `level`: the receiver's own height is between them; else the difference would cancel, and is a quotient.
+inline double column_height(double d, double lo, double hi, bool level) {
     double const dd = d * d;
     double const l_lo = std::sqrt(dd + lo * lo);
     double const l_hi = std::sqrt(dd + hi * hi);
-    if (lo * hi > 0) return dd * (hi - lo) * (hi + lo) / (l_lo * l_hi * (hi * l_lo + lo * l_hi));
-    return hi / l_hi - lo / l_lo;
+    double const a = hi * l_lo;
+    double const b = lo * l_hi;
+    return (level ? a - b : dd * (hi - lo) * (hi + lo)) / (l_lo * l_hi * (level ? 1.0 : a + b));
 }
 
 }  // namespace
@@ -52,9 +63,81 @@ struct CylinderSeen::Place {
 std::optional<CylinderSeen> seen(Cylinder const& shape, Vec3 from, EmittingSides sides) {
     std::optional<CylinderSeen> r;
     if (shape.phi_max < kTwoPi) return r;
-    r.emplace(CylinderSeen(shape, from, sides));
+    r.emplace(shape, from, sides);
     if (r->empty()) r.reset();
     return r;
+}
+
+// From outside, a ray at the azimuth psi from the axis's direction meets the walls under the angle t from their normals,
+// rho sin psi = r sin t, at the horizontal distances rho cos psi -+ r cos t. With t instead of psi, or of the azimuth about the axis,
+// the ends have no square roots, and a near wall no peak. From inside the receiver's azimuth itself does, counted from where the
+// wall is nearest.
+template <CylinderSeen::Wall kWall>
+inline CylinderSeen::Column CylinderSeen::column(double sine, double cosine) const {
+    Column c{0, lo_, hi_, 0, 1};
+    if constexpr (kWall == Wall::Around) {
+        double const root = std::sqrt(r_ * r_ - rho_ * rho_ * sine * sine);
+        double const b = rho_ * cosine;
+        c.d = (b > 0 ? square_ : root - b) / (b > 0 ? root + b : 1.0);  // selects, for a loop in vectors
+    } else {
+        double const rc = r_ * cosine;
+        double const q = std::sqrt(rc * rc + square_);  // rho cos psi
+        double const far = q + rc;
+        c.azimuth = rc / q;
+        c.d = kWall == Wall::Near ? square_ / far : far;
+        if constexpr (kWall == Wall::Far) {  // over the near wall's edge
+            double const ratio = far * far / square_;
+            double const below = lo_ * ratio < hi_ ? lo_ * ratio : hi_;
+            double const above = hi_ * ratio > lo_ ? hi_ * ratio : lo_;
+            c.hi = lo_ > 0 ? below : hi_;
+            c.lo = lo_ > 0 ? lo_ : above;
+        }
+    }
+    c.sines = column_height(c.d, c.lo, c.hi, lo_ * hi_ <= 0);
+    return c;
+}
+
+CylinderSeen::Column CylinderSeen::column(Wall wall, double sine, double cosine) const {
+    switch (wall) {
+        case Wall::Near:
+            return column<Wall::Near>(sine, cosine);
+        case Wall::Far:
+            return column<Wall::Far>(sine, cosine);
+        case Wall::Around:
+            break;
+    }
+    return column<Wall::Around>(sine, cosine);
+}
+
+template <CylinderSeen::Wall kWall>
+double CylinderSeen::tabulate(std::size_t piece) {
+    constexpr bool kAround = kWall == Wall::Around;
+    static constexpr Turns<kNodes> kTurns(kAround);
+    wall_[piece] = kWall;
+    std::array<double, kNodes + 1> values;
+    for (std::size_t i = 0; i <= kNodes; ++i) {
+        Column const c = column<kWall>(kTurns.sine[i], kTurns.cosine[i]);
+        values[i] = c.sines * c.azimuth;
+    }
+    if constexpr (!kAround) {
+        // The walls' edge itself is nothing wide. Close to the wall all that is seen may be close to that edge.
+        double const width = std::sqrt(square_) / r_;
+        Column const c = column<kWall>(1, width < 0.05 ? width : 0.05);
+        values[kNodes] = c.sines * c.azimuth;
+    }
+    double greatest = 0;
+    for (double const v : values) greatest = v > greatest ? v : greatest;
+    if (!(greatest > 0)) return 0;
+    std::array<float, kNodes + 1> exact;
+    for (std::size_t i = 0; i <= kNodes; ++i) exact[i] = static_cast<float>(values[i] / greatest);
+    // Between two nodes the density may stay with the higher one: the weight is bounded by what the lower one is given.
+    std::array<float, kNodes + 1> nodes = exact;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        nodes[i] = max(nodes[i], kLeast * exact[i + 1]);
+        nodes[i + 1] = max(nodes[i + 1], kLeast * exact[i]);
+    }
+    table_[piece] = TabulatedDensity<kNodes>(nodes);
+    return static_cast<double>(table_[piece].integral()) * greatest;
 }
 
 CylinderSeen::CylinderSeen(Cylinder const& shape, Vec3 from, EmittingSides sides)
@@ -74,79 +157,15 @@ CylinderSeen::CylinderSeen(Cylinder const& shape, Vec3 from, EmittingSides sides
     ey_ = rho_ > 0 ? y / rho_ : 0;
     if (!(square_ > 0) || !(hi_ > lo_)) return;
     if (rho_ < r_) {
-        if (sides != EmittingSides::Front) share_[0] = tabulate(0, Wall::Around) > 0 ? 1 : 0;
+        if (sides != EmittingSides::Front) share_[0] = tabulate<Wall::Around>(0) > 0 ? 1 : 0;
         return;
     }
-    double const near = sides != EmittingSides::Back ? tabulate(0, Wall::Near) : 0;
+    double const near = sides != EmittingSides::Back ? tabulate<Wall::Near>(0) : 0;
     // Between the heights of its ends the near wall hides the far one.
-    double const far = sides != EmittingSides::Front && lo_ * hi_ > 0 ? tabulate(1, Wall::Far) : 0;
+    double const far = sides != EmittingSides::Front && lo_ * hi_ > 0 ? tabulate<Wall::Far>(1) : 0;
     if (!(near + far > 0)) return;
     share_[0] = near / (near + far);
     share_[1] = far / (near + far);
-}
-
-// From outside, a ray at the azimuth psi from the axis's direction meets the walls under the angle t from their normals,
-// rho sin psi = r sin t, at the horizontal distances rho cos psi -+ r cos t. With t instead of psi, or of the azimuth about the axis,
-// the ends have no square roots, and a near wall no peak. From inside the receiver's azimuth itself does, counted from where the
-// wall is nearest.
-CylinderSeen::Column CylinderSeen::column(Wall wall, double sine, double cosine) const {
-    Column c{0, lo_, hi_, 0, 1};
-    if (wall == Wall::Around) {
-        double const root = std::sqrt(r_ * r_ - rho_ * rho_ * sine * sine);
-        double const b = rho_ * cosine;
-        c.d = b > 0 ? square_ / (root + b) : root - b;
-    } else {
-        double const rc = r_ * cosine;
-        double const q = std::sqrt(rc * rc + square_);  // rho cos psi
-        double const far = q + rc;
-        double const near = square_ / far;
-        c.azimuth = rc / q;
-        c.d = wall == Wall::Near ? near : far;
-        if (wall == Wall::Far) {  // over the near wall's edge
-            double const ratio = far / near;
-            if (lo_ > 0) {
-                c.hi = lo_ * ratio < hi_ ? lo_ * ratio : hi_;
-            } else {
-                c.lo = hi_ * ratio > lo_ ? hi_ * ratio : lo_;
-            }
-        }
-    }
-    c.sines = column_height(c.d, c.lo, c.hi);
-    return c;
-}
-
-double CylinderSeen::tabulate(std::size_t piece, Wall wall) {
-    wall_[piece] = wall;
-    static constexpr auto kSine = quarter_sines<kNodes>();
-    std::array<float, kNodes + 1> exact;
-    double greatest = 0;
-    std::array<double, kNodes + 1> values;
-    for (std::size_t i = 0; i <= kNodes; ++i) {
-        // A half turn around, a quarter turn else.
-        double sine = kSine[i];
-        double cosine = kSine[kNodes - i];
-        if (wall == Wall::Around) {
-            cosine = (cosine - sine) * (cosine + sine);
-            sine = 2 * kSine[i] * kSine[kNodes - i];
-        } else if (i == kNodes) {
-            // The walls' edge itself is nothing wide. Close to the wall all that is seen may be close to that edge.
-            double const width = std::sqrt(square_) / r_;
-            cosine = width < 0.05 ? width : 0.05;
-        }
-        Column const c = column(wall, sine, cosine);
-        values[i] = c.sines * c.azimuth;
-        greatest = values[i] > greatest ? values[i] : greatest;
-    }
-    if (!(greatest > 0)) return 0;
-    for (std::size_t i = 0; i <= kNodes; ++i) exact[i] = static_cast<float>(values[i] / greatest);
-    // Between two nodes the density may stay with the higher one: the weight is bounded by what the lower one is given.
-    std::array<float, kNodes + 1> nodes = exact;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-        nodes[i] = max(nodes[i], 0.2f * exact[i + 1]);
-        nodes[i + 1] = max(nodes[i + 1], 0.2f * exact[i]);
-    }
-    table_[piece] = TabulatedDensity<kNodes>(nodes);
-    return static_cast<double>(table_[piece].integral()) * greatest;
 }
 
 double CylinderSeen::pdf_at(std::size_t piece, float x, Column const& c) const {

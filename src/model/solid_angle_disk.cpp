@@ -33,7 +33,13 @@ std::optional<DiskSeen> seen(Disk const& shape, Vec3 from, EmittingSides sides) 
     bool const full = shape.inner_radius == 0.0f && shape.phi_max >= kTwoPi;
     bool const visible = h > 0.0f ? sides != EmittingSides::Back : h < 0.0f && sides != EmittingSides::Front;
     if (!full || !visible) return r;
-    r.emplace(DiskSeen(shape, from));
+    // From twenty radii on, points by area are as good: they add less than a hundredth to the variance (decision 5).
+    double const x = from.x;
+    double const y = from.y;
+    double const z = h;
+    double const radius = shape.radius;
+    if (x * x + y * y + z * z > 400 * radius * radius) return r;
+    r.emplace(shape, from);
     return r;
 }
 

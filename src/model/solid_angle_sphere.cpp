@@ -22,7 +22,7 @@ std::optional<SphereSeen> seen(Sphere const& shape, Vec3 from, EmittingSides sid
     double const radius = shape.radius;
     double const off = std::sqrt(squared_length(from)) - radius;
     bool const visible = off > 0 ? sides != EmittingSides::Back : off < 0 && sides != EmittingSides::Front;
-    if (visible) r.emplace(SphereSeen(shape.radius, from));
+    if (visible) r.emplace(shape.radius, from);
     return r;
 }
 

@@ -77,6 +77,7 @@ class DiskSeen {
     double cos2_a_, cos2_b_;
     TabulatedDensity<kNodes> quarter_;
 };
+/// Nothing from twenty radii on: docs/decisions/0005-disks-by-solid-angle.md.
 std::optional<DiskSeen> seen(Disk const& shape, Vec3 from, EmittingSides sides);
 
 /// An open tube. Along z the density is exact given the azimuth; the azimuth's own is tabulated. Of the far wall, seen through the
@@ -91,13 +92,16 @@ class CylinderSeen {
     [[nodiscard]] bool empty() const { return !(share_[0] + share_[1] > 0); }
 
   private:
-    static constexpr int kNodes = 16;  // cells on either side of the plane through the axis and the receiver
+    static constexpr int kNodes = 12;  // cells on either side of the plane through the axis and the receiver
     enum class Wall : std::uint8_t { Near, Far, Around };
     struct Column;
     struct Place;
+    template <Wall kWall>
+    [[nodiscard]] Column column(double sine, double cosine) const;
     [[nodiscard]] Column column(Wall wall, double sine, double cosine) const;
     [[nodiscard]] Place place(Vec3 p) const;
-    double tabulate(std::size_t piece, Wall wall);
+    template <Wall kWall>
+    double tabulate(std::size_t piece);
     [[nodiscard]] double pdf_at(std::size_t piece, float x, Column const& c) const;
 
     float radius_, z_min_, z_max_, from_z_;
