@@ -177,4 +177,8 @@ ShapeSample sample(BilinearMesh const& m, std::uint32_t part, Vec2 u) {
     return r;
 }
 
+std::optional<Vec2> invert_area(BilinearMesh const&, std::uint32_t, Vec3, Vec2 uv) {
+    return detail::unit_square(uv.x, uv.y);
+}
+
 }  // namespace nephroid

@@ -80,4 +80,12 @@ ShapeSample sample(Box const& s, std::uint32_t part, Vec2 u) {
     return r;
 }
 
+std::optional<Vec2> invert_area(Box const& s, std::uint32_t part, Vec3 p, Vec2) {
+    int const axis = static_cast<int>(part / 2);
+    int const a = (axis + 1) % 3;
+    int const b = (axis + 2) % 3;
+    return detail::unit_square((p[a] - s.lo[a]) / (s.hi[a] - s.lo[a]),
+                               (p[b] - s.lo[b]) / (s.hi[b] - s.lo[b]));
+}
+
 }  // namespace nephroid

@@ -70,4 +70,8 @@ ShapeSample sample(Cylinder const& s, std::uint32_t part, Vec2 u) {
     return r;
 }
 
+std::optional<Vec2> invert_area(Cylinder const& s, std::uint32_t, Vec3 p, Vec2) {
+    return detail::unit_square((p.z - z_lo(s)) / (z_hi(s) - z_lo(s)), detail::azimuth(p.x, p.y) / s.phi_max);
+}
+
 }  // namespace nephroid

@@ -59,4 +59,14 @@ ShapeSample sample(Disk const& s, std::uint32_t part, Vec2 u) {
     return r;
 }
 
+std::optional<Vec2> invert_area(Disk const& s, std::uint32_t, Vec3 p, Vec2) {
+    float const r2 = p.x * p.x + p.y * p.y;
+    float const u = (r2 - sqr(s.inner_radius)) / (sqr(s.radius) - sqr(s.inner_radius));
+    if (s.inner_radius == 0.0f && s.phi_max >= kTwoPi) {
+        if (!detail::unit_square(u, 0.0f)) return std::nullopt;
+        return disk_to_square({p.x / s.radius, p.y / s.radius});
+    }
+    return detail::unit_square(u, detail::azimuth(p.x, p.y) / s.phi_max);
+}
+
 }  // namespace nephroid

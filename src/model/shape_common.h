@@ -28,6 +28,15 @@ inline float azimuth(double x, double y) {
     return static_cast<float>(phi);
 }
 
+/// A point of the unit square that sampling functions take, where (x, y) is one but for rounding; else nothing.
+inline std::optional<Vec2> unit_square(float x, float y) {
+    constexpr float slack = 1e-4f;
+    std::optional<Vec2> u;
+    if (x >= -slack && x <= 1.0f + slack && y >= -slack && y <= 1.0f + slack)
+        u.emplace(clamp(x, 0.0f, kOneMinusEpsilon), clamp(y, 0.0f, kOneMinusEpsilon));
+    return u;
+}
+
 /// Real roots of a t^2 + 2 h t + c, t0 <= t1, without cancellation; false when there are none.
 inline bool solve_quadratic(double a, double h, double c, double discriminant_quarter, double& t0,
                             double& t1) {

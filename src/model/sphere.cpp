@@ -95,4 +95,10 @@ ShapeSample sample(Sphere const& s, std::uint32_t part, Vec2 u) {
     return r;
 }
 
+std::optional<Vec2> invert_area(Sphere const& s, std::uint32_t, Vec3 p, Vec2) {
+    Cut const c = cut_of(s);
+    p *= s.radius / length(p);
+    return detail::unit_square((c.z_hi - p.z) / (c.z_hi - c.z_lo), detail::azimuth(p.x, p.y) / s.phi_max);
+}
+
 }  // namespace nephroid

@@ -30,6 +30,8 @@ struct ShapeHit {
 //   surface(shape, hit, p)                     geometry at a hit; p = ray(t), off by rounding, is put back on the surface
 //   part_count(shape), part_area(shape, part)
 //   sample(shape, part, u)                     uniform by area over one part
+//   invert_area(shape, part, p, uv)            the u that sample() makes the point p of; `uv` is its ShapeHit's u and v, which
+//                                              quads and patches go by. Nothing beyond the part
 #define NEPHROID_ANALYTIC_SHAPE(S)                                                                        \
     Bounds3 bounds(S const& shape);                                                                       \
     std::optional<ShapeHit> intersect(S const& shape, std::uint32_t prim, Ray3d const& ray, double t_min, \
@@ -37,7 +39,8 @@ struct ShapeHit {
     SurfacePoint surface(S const& shape, ShapeHit const& hit, Vec3 p);                                    \
     std::uint32_t part_count(S const& shape);                                                             \
     float part_area(S const& shape, std::uint32_t part);                                                  \
-    ShapeSample sample(S const& shape, std::uint32_t part, Vec2 u);
+    ShapeSample sample(S const& shape, std::uint32_t part, Vec2 u);                                       \
+    std::optional<Vec2> invert_area(S const& shape, std::uint32_t part, Vec3 p, Vec2 uv);
 
 NEPHROID_ANALYTIC_SHAPE(Sphere)
 NEPHROID_ANALYTIC_SHAPE(Cylinder)

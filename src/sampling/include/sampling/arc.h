@@ -28,6 +28,12 @@ inline SinCos sin_cos_half_turn(double angle) {
     return {2 * s * c, (c - s) * (c + s)};
 }
 
+/// The same of `turns`, in [0, 1], whole turns.
+inline SinCos sin_cos_turns(double turns) {
+    SinCos const half = sin_cos_half_turn(kPiDouble * turns);
+    return {2 * half.sin * half.cos, (half.cos - half.sin) * (half.cos + half.sin)};
+}
+
 /// The angle in [0, pi] of the point (x, y), y >= 0; 0 for the origin. Errors: 3e-11 of the angle where x >= 0, 1e-10 absolute
 /// elsewhere.
 inline double upper_angle(double y, double x) {
@@ -48,6 +54,12 @@ inline double upper_angle(double y, double x) {
     double a = r * poly + (middle ? kPiDouble / 4 : 0.0);
     if (steep) a = kPiDouble / 2 - a;
     return x < 0 ? kPiDouble - a : a;
+}
+
+/// The azimuth of (x, y) as a share of a whole turn, in [0, 1].
+inline double turns_of(double y, double x) {
+    double const half = upper_angle(std::abs(y), x) * (0.5 / kPiDouble);
+    return y < 0 ? 1 - half : half;
 }
 
 }  // namespace nephroid
