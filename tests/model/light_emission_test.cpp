@@ -101,7 +101,9 @@ TEST_CASE("emission: directions are drawn from their density, which is also that
     Lamps const lamps;
     int const n = samples(1'000'000, 4'000'000);
     double const alpha = sidak(static_cast<int>(lamps.cases.size()));
-    for (auto const& [name, lit] : lamps.cases) {
+    for (Case const& lamp : lamps.cases) {
+        auto const& name = lamp.name;  // CAPTURE takes no structured bindings (clang 14)
+        auto const& lit = lamp.lit;
         if (std::holds_alternative<DistantLight>(lit->light().kind)) continue;
         CAPTURE(name);
         bool const at_point = !is_infinite(lit->light());
@@ -173,7 +175,8 @@ TEST_CASE("emission: the density is the Jacobian of the map from the square") {
     Lamps const lamps;
     double const h = 0x1p-11;
     for (std::size_t k = 0; k < lamps.at_points; ++k) {
-        auto const& [name, lit] = lamps.cases[k];
+        auto const& name = lamps.cases[k].name;
+        auto const& lit = lamps.cases[k].lit;
         CAPTURE(name);
         Random r(6);
         int tried = 0;
@@ -206,7 +209,8 @@ TEST_CASE("emission of lights at infinity: even over the disk across the ray, as
     int const n = samples(400'000, 4'000'000);
     double const area = kPiD * 9;
     for (std::size_t k = lamps.at_points; k < lamps.cases.size(); ++k) {
-        auto const& [name, lit] = lamps.cases[k];
+        auto const& name = lamps.cases[k].name;
+        auto const& lit = lamps.cases[k].lit;
         CAPTURE(name);
         bool const distant = !is_infinite(lit->light());
         std::vector<double> o(10 * 16);
@@ -251,8 +255,10 @@ TEST_CASE("emission: the rays carry all of the power, in every lane of either mo
     int const n = samples(400'000, 4'000'000);
     auto const modes = {Wavelengths::rgb(), Wavelengths::spectral(0.3f)};
     double const alpha = sidak(static_cast<int>(lamps.cases.size() * 7));
-    for (auto const& [name, lit] : lamps.cases)
+    for (Case const& lamp : lamps.cases)
         for (Wavelengths const& w : modes) {
+            auto const& name = lamp.name;
+            auto const& lit = lamp.lit;
             CAPTURE(name);
             CAPTURE(w.is_rgb());
             int const lanes = w.is_rgb() ? 3 : 4;
@@ -298,13 +304,14 @@ TEST_CASE("power in lumens is what pictures and tables send out in all, in colou
         return Vec3{0.1f * static_cast<float>(x), 0.3f, 0.1f * static_cast<float>(y)};
     });
     Mat4 const squeezed = turned() * scale(1, 2, 0.7);
-    for (auto const& [kind, files] :
+    for (auto const& light :
          {std::pair{LightKind{ProjectionLight{ImageId{0}, 0.8f, 2, 500}}, slide.files()},
           std::pair{LightKind{GoniometricLight{BlackbodySpd{3000}, ImageId{0}, 2, 500}}, square.files()},
           std::pair{LightKind{MeasuredLight{NamedSpd{"stdillum-F2"}, batwing(), 2, 500}},
                     std::vector<ImageFile>{}}}) {
+        LightKind const& kind = light.first;
         CAPTURE(kind.index());
-        Lit const l(kind, squeezed, files);
+        Lit const l(kind, squeezed, light.second);
         Mean flux;
         Random r(9);
         int const n = samples(400'000, 4'000'000);
@@ -324,7 +331,8 @@ TEST_CASE("power in lumens is what pictures and tables send out in all, in colou
 TEST_CASE("what arrives from a light is what it sends out") {
     Lamps const lamps;
     for (std::size_t k = 0; k < lamps.cases.size(); ++k) {
-        auto const& [name, lit] = lamps.cases[k];
+        auto const& name = lamps.cases[k].name;
+        auto const& lit = lamps.cases[k].lit;
         CAPTURE(name);
         Random r(10);
         int others = 0;
@@ -358,7 +366,8 @@ TEST_CASE("what arrives from a light is what it sends out") {
 TEST_CASE("bounds: no light goes beyond the angles, none is stronger, and they are not idle") {
     Lamps const lamps;
     for (std::size_t k = 0; k < lamps.cases.size(); ++k) {
-        auto const& [name, lit] = lamps.cases[k];
+        auto const& name = lamps.cases[k].name;
+        auto const& lit = lamps.cases[k].lit;
         CAPTURE(name);
         auto const b = light_bounds(lit->light(), lit->data, lit->assets);
         REQUIRE(b.has_value() == (k < lamps.at_points));

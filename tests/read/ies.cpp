@@ -119,7 +119,9 @@ TEST_CASE("IES symmetries: one plane, a quarter, either half, all around, and a 
         CHECK(t.horizontal.back() == kTwoPi);
         CHECK(std::is_sorted(t.horizontal.begin(), t.horizontal.end(), std::less_equal<float>{}));
         REQUIRE(t.candela.size() == t.vertical.size() * t.horizontal.size());
-        for (auto const& [angle, cd] : wanted) {
+        for (auto const& want : wanted) {
+            double const angle = want.first;
+            double const cd = want.second;
             CAPTURE(angle);
             CHECK(at(t, 45, angle) == doctest::Approx(cd).epsilon(1e-4));
             CHECK(at(t, 22.5, angle) == doctest::Approx((100 + cd) / 2).epsilon(1e-4));
