@@ -33,7 +33,9 @@ std::string name_of(MaterialKind const& m) {
 std::string name_of(LightKind const& l) {
     return match(
         l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
-        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; });
+        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
+        [](GoniometricLight const&) { return "goniometric"; },
+        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; });
 }
 
 template <class List>
