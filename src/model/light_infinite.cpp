@@ -1,5 +1,6 @@
-// Light from everywhere around: constant, or a picture by its importance.
+// Light from everywhere around: constant, or a picture by its importance, or what of it comes through a portal.
 #include "light_kinds.h"
+#include "portal.h"
 
 #include "spectrum/color.h"
 
@@ -78,6 +79,59 @@ std::shared_ptr<EnvironmentTable const> environment_table(EnvironmentMapping map
     return std::make_shared<EnvironmentTable>(EnvironmentTable{Distribution2D(f, w, h)});
 }
 
+/// All around, portal or not.
+Spectrum sky_radiance(InfiniteLight const& l, LightData const& d, Assets const& assets, Vec3 w,
+                      Wavelengths const& lambda) {
+    if (!l.image.valid()) return d.emission.sample(lambda);
+    Vec2 const st = direction_to_square(d.mapping, local_direction(d, w));
+    return image_radiance(d, environment_rgb(d.mapping, assets.pyramid(l.image), st), lambda);
+}
+
+// --- through a portal -------------------------------------------------------------------------------------------------
+
+std::shared_ptr<Portal const> prepare_portal(InfiniteLight const& l, LightData const& d, Light const& light,
+                                             Assets const& assets) {
+    auto portal = make_portal(*l.portal);
+    if (!portal) assets.scene().fail(light.where, "the light's portal is not a rectangle");
+    if (!l.image.valid()) {
+        tabulate(*portal, 64, 4, [](Vec3) { return 1.0; });
+    } else {
+        Pyramid const& picture = assets.pyramid(l.image);
+        // Of a picture of the whole sphere w texels wide, about w / 2 fall to the width of the portal's half. Larger ones
+        // are added up in the table's cells, with the points at least as dense as texels.
+        int const side = std::max(picture.level(0).width(), picture.level(0).height());
+        int const n = std::min(std::max(side / 2, 64), 512);
+        tabulate(*portal, n, std::max(2, side / n), [&](Vec3 w) {
+            Vec3 const rgb =
+                environment_rgb(d.mapping, picture, direction_to_square(d.mapping, local_direction(d, w)));
+            return static_cast<double>((rgb.x + rgb.y + rgb.z) / 3.0f);
+        });
+    }
+    return std::make_shared<Portal>(std::move(*portal));
+}
+
+/// Density by solid angle over a window.
+float portal_pdf(Portal const& portal, SquareWindow const& window, PortalDirection const& at) {
+    return static_cast<float>(portal.distribution.pdf(at.u, at.v, window) / at.solid_angle);
+}
+
+std::optional<LightSample> sample_portal(InfiniteLight const& l, LightData const& d, Assets const& assets,
+                                         SquareWindow const& window, Vec2 u, Wavelengths const& lambda) {
+    std::optional<LightSample> result;
+    auto const place =
+        d.portal->distribution.sample(static_cast<double>(u.x), static_cast<double>(u.y), window);
+    if (!place) return result;
+    Vec3 const w = direction_through(*d.portal, place->x, place->y);
+    auto const at = portal_direction(*d.portal, w);
+    if (!at) return result;  // rounded into the wall
+    LightSample& s = result.emplace();
+    s.at_infinity = true;
+    s.wi = normalize(w);
+    s.pdf = static_cast<float>(place->pdf / at->solid_angle);
+    s.radiance = sky_radiance(l, d, assets, s.wi, lambda);
+    return result;
+}
+
 }  // namespace
 
 LightData prepare(InfiniteLight const& l, Light const& light, Assets& assets) {
@@ -88,6 +142,7 @@ LightData prepare(InfiniteLight const& l, Light const& light, Assets& assets) {
     if (!l.image.valid()) {
         // Illuminance of a surface facing a sky of luminance 1 is pi (pbrt-v4).
         d.emission = emission_spectrum(assets, l.radiance, l.scale, l.illuminance, pi);
+        if (l.portal) d.portal = prepare_portal(l, d, light, assets);
         return d;
     }
     Pyramid const& picture = assets.pyramid(l.image);
@@ -124,13 +179,21 @@ LightData prepare(InfiniteLight const& l, Light const& light, Assets& assets) {
         sum /= static_cast<double>(image.width()) * image.height();
         if (sum > 0) d.image_scale *= static_cast<float>(static_cast<double>(l.illuminance) / sum);
     }
-    d.table = environment_table(d.mapping, picture);
+    if (l.portal)
+        d.portal = prepare_portal(l, d, light, assets);
+    else
+        d.table = environment_table(d.mapping, picture);
     return d;
 }
 
 std::optional<LightSample> sample_light(InfiniteLight const& l, LightData const& d, Assets const& assets,
-                                        Vec3, Vec2 u, Wavelengths const& lambda) {
+                                        Vec3 p, Vec2 u, Wavelengths const& lambda) {
     std::optional<LightSample> result;
+    if (d.portal) {
+        if (auto const window = portal_window(*d.portal, p))
+            result = sample_portal(l, d, assets, *window, u, lambda);
+        return result;
+    }
     if (!l.image.valid()) {
         LightSample& s = result.emplace();
         s.at_infinity = true;
@@ -152,14 +215,22 @@ std::optional<LightSample> sample_light(InfiniteLight const& l, LightData const&
     return result;
 }
 
-Spectrum environment_radiance(InfiniteLight const& l, LightData const& d, Assets const& assets, Vec3, Vec3 w,
-                              Wavelengths const& lambda) {
-    if (!l.image.valid()) return d.emission.sample(lambda);
-    Vec2 const st = direction_to_square(d.mapping, local_direction(d, w));
-    return image_radiance(d, environment_rgb(d.mapping, assets.pyramid(l.image), st), lambda);
+Spectrum environment_radiance(InfiniteLight const& l, LightData const& d, Assets const& assets, Vec3 p,
+                              Vec3 w, Wavelengths const& lambda) {
+    if (d.portal) {
+        auto const window = portal_window(*d.portal, p);
+        auto const at = portal_direction(*d.portal, w);
+        if (!window || !at || !is_inside(*window, *at)) return {};
+    }
+    return sky_radiance(l, d, assets, w, lambda);
 }
 
-float environment_pdf(InfiniteLight const& l, LightData const& d, Vec3, Vec3 w) {
+float environment_pdf(InfiniteLight const& l, LightData const& d, Vec3 p, Vec3 w) {
+    if (d.portal) {
+        auto const window = portal_window(*d.portal, p);
+        auto const at = portal_direction(*d.portal, w);
+        return window && at ? portal_pdf(*d.portal, *window, *at) : 0.0f;
+    }
     if (!l.image.valid()) return kUniformSpherePdf;
     Vec3 const local = local_direction(d, w);
     Vec2 const st = direction_to_square(d.mapping, local);
@@ -168,10 +239,11 @@ float environment_pdf(InfiniteLight const& l, LightData const& d, Vec3, Vec3 w) 
 }
 
 float power(InfiniteLight const& l, LightData const& d, Assets const&, BoundingSphere const& scene) {
-    float radiance = d.emission.max_value();
+    float radiance = d.emission.max_value() * (l.image.valid() ? d.image_scale : 1.0f);
+    if (d.portal) return radiance * static_cast<float>(d.portal->flux);
     if (l.image.valid()) {
         // The table's mean over the square; by latitude it holds L sin(theta), whose mean is 2/pi that of L.
-        radiance *= d.image_scale * d.table->distribution.integral();
+        radiance *= d.table->distribution.integral();
         if (d.mapping == EnvironmentMapping::LatLong) radiance *= kPiOver2;
     }
     return 4.0f * kPi * (kPi * sqr(scene.radius)) * radiance;
@@ -180,15 +252,39 @@ float power(InfiniteLight const& l, LightData const& d, Assets const&, BoundingS
 std::optional<EmissionSample> sample_emission(InfiniteLight const& l, LightData const& d,
                                               Assets const& assets, BoundingSphere const& scene,
                                               Vec2 u_position, Vec2 u_direction, Wavelengths const& lambda) {
+    std::optional<EmissionSample> result;
+    if (d.portal) {
+        // Through the rectangle, as wide as it looks from there; from as far outside as through the disk.
+        auto const from = sample_portal(l, d, assets, {}, u_direction, lambda);
+        auto const at = from ? portal_direction(*d.portal, from->wi) : std::nullopt;
+        float const seen = at ? static_cast<float>(d.portal->area() * at->cosine) : 0.0f;
+        if (!(seen > 0.0f) || !std::isfinite(1.0f / seen) || from->radiance.is_black()) return result;
+        Vec3 const q = point_of(*d.portal, u_position);
+        EmissionSample& s = result.emplace();
+        s.ray.o = q + (scene.radius - dot(q - scene.centre, from->wi)) * from->wi;
+        s.ray.d = -from->wi;
+        s.radiance = from->radiance;
+        s.pdf_position = 1.0f / seen;
+        s.pdf_direction = portal_pdf(*d.portal, {}, *at);
+        return result;
+    }
     auto const from = sample_light(l, d, assets, scene.centre, u_direction, lambda);
-    if (!from) return std::nullopt;
+    if (!from) return result;
     // The density is asked for again, so that who follows the ray backwards gets the same one also at texels' edges.
-    return emission_from_infinity(scene, from->wi, from->radiance,
-                                  environment_pdf(l, d, scene.centre, from->wi), false, u_position);
+    result = emission_from_infinity(scene, from->wi, from->radiance,
+                                    environment_pdf(l, d, scene.centre, from->wi), false, u_position);
+    return result;
 }
 
 EmissionDensity emission_density(InfiniteLight const& l, LightData const& d, BoundingSphere const& scene,
                                  Vec3 p, Vec3 w) {
+    if (d.portal) {
+        auto const at = portal_direction(*d.portal, -w);
+        if (!at) return {};
+        float const seen = static_cast<float>(d.portal->area() * at->cosine);
+        bool const through = seen > 0.0f && std::isfinite(1.0f / seen) && passes(*d.portal, p, w);
+        return {through ? 1.0f / seen : 0.0f, portal_pdf(*d.portal, {}, *at)};
+    }
     return {disk_density(scene, p, w), environment_pdf(l, d, scene.centre, -w)};
 }
 

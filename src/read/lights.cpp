@@ -74,6 +74,15 @@ DistantLight distant(Params& p) {
     return l;
 }
 
+/// Corners in the world, whatever the transformation in force (pbrt-v4). That they are a rectangle is validate()'s to say.
+std::array<Vec3, 4> portal_of(Params& p, Param const& given) {
+    auto const points = p.points3("portal");
+    if (points.size() != 4)
+        p.context().fail(given.where, p.what() + ": \"portal\" has " + std::to_string(points.size()) +
+                                          " points; it must have 4, the corners of a rectangle in order");
+    return {points[0], points[1], points[2], points[3]};
+}
+
 InfiniteLight infinite(Params& p) {
     InfiniteLight l;
     if (p.find("L", kColour) && p.find("filename", {ParamType::String}))
@@ -83,7 +92,7 @@ InfiniteLight infinite(Params& p) {
     if (l.image.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
     l.illuminance = output(p, "illuminance");
-    if (p.find("portal", {ParamType::Point3})) p.note("portals are not used yet: the whole sky is sampled");
+    if (auto const* given = p.find("portal", {ParamType::Point3})) l.portal = portal_of(p, *given);
     return l;
 }
 

@@ -48,21 +48,36 @@ AliasTable::AliasTable(std::span<float const> weights) {
         for (Entry const& e : *rest) bins_[e.i].q = 1, bins_[e.i].alias = e.i;
 }
 
-Distribution1D::Distribution1D(std::span<float const> f) : f_(f.begin(), f.end()), cdf_(f.size() + 1) {
+Distribution1D::Distribution1D(std::span<float const> f) : cdf_(f.size() + 1), guide_(f.size()) {
     std::size_t const n = f.size();
+    auto const value = [&](std::size_t i) { return std::abs(static_cast<double>(f[i])); };
     double sum = 0;
-    std::vector<double> exact(n + 1);
-    for (std::size_t i = 0; i < n; ++i) {
-        f_[i] = std::abs(f_[i]);
-        sum += f_[i];
-        exact[i + 1] = sum;
-    }
+    for (std::size_t i = 0; i < n; ++i) sum += value(i);
     integral_ = static_cast<float>(sum / static_cast<double>(n));
-    for (std::size_t i = 1; i <= n; ++i)
-        cdf_[i] =
-            static_cast<float>(sum > 0 ? exact[i] / sum : static_cast<double>(i) / static_cast<double>(n));
-    if (!(sum > 0)) std::fill(f_.begin(), f_.end(), 0.0f);
-    guide_.resize(n);
+    if (integral_ > 0) {
+        double const least = 0x1p-8 * sum / static_cast<double>(n);
+        auto const raised = [&](std::size_t i) { return value(i) > 0 ? std::max(value(i), least) : 0.0; };
+        double total = 0;
+        for (std::size_t i = 0; i < n; ++i) total += raised(i);
+        // Edges in 2^-24ths: rounded, then pushed apart, upwards and back from the end, where lit cells are empty. Beyond 2^24
+        // cells there is not one for each.
+        std::vector<std::int64_t> edge(n + 1);
+        std::int64_t constexpr end = 1 << 24;
+        std::int64_t const one = n < static_cast<std::size_t>(end) ? 1 : 0;
+        double running = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            running += raised(i);
+            edge[i + 1] = value(i) > 0 ? std::max(std::llround(running / total * static_cast<double>(end)),
+                                                  static_cast<long long>(edge[i] + one))
+                                       : edge[i];
+        }
+        edge[n] = end;
+        for (std::size_t i = n; i-- > 1;) edge[i] = std::min(edge[i], edge[i + 1] - (value(i) > 0 ? one : 0));
+        for (std::size_t i = 0; i <= n; ++i) cdf_[i] = static_cast<float>(edge[i]) * 0x1p-24f;
+    } else {
+        for (std::size_t i = 0; i <= n; ++i)
+            cdf_[i] = static_cast<float>(static_cast<double>(i) / static_cast<double>(n));
+    }
     for (std::size_t k = 0, i = 0; k < n; ++k) {
         while (i + 1 < n && cdf_[i + 1] <= static_cast<float>(k) / static_cast<float>(n)) ++i;
         guide_[k] = static_cast<std::uint32_t>(i);
@@ -71,35 +86,32 @@ Distribution1D::Distribution1D(std::span<float const> f) : f_(f.begin(), f.end()
 
 float Distribution1D::sample(float u, float* pdf, std::size_t* cell) const {
     // The last cell whose cdf is <= u.
-    std::size_t const n = f_.size();
+    std::size_t const n = guide_.size();
     std::size_t i = guide_[std::min(static_cast<std::size_t>(u * static_cast<float>(n)), n - 1)];
     while (i > 0 && cdf_[i] > u) --i;  // u * n may have been rounded up
     while (i + 1 < n && cdf_[i + 1] <= u) ++i;
-    // Never an impossible cell: rounding can put u on the edge of one.
-    while (i > 0 && cdf_[i + 1] == cdf_[i]) --i;
     float t = u - cdf_[i];
     float const width = cdf_[i + 1] - cdf_[i];
     if (width > 0) t /= width;
     t = clamp(t, 0.0f, kOneMinusEpsilon);
     if (cell) *cell = i;
-    if (pdf) *pdf = integral_ > 0 ? f_[i] / integral_ : 1.0f;
-    float x = std::min((static_cast<float>(i) + t) / static_cast<float>(f_.size()), kOneMinusEpsilon);
+    if (pdf) *pdf = density(i);
+    float x = std::min((static_cast<float>(i) + t) / static_cast<float>(n), kOneMinusEpsilon);
     // Rounding may have carried x over the cell's edge, where the density is another, or none at all.
-    while (cell_of(x, f_.size()) > i) x = std::nextafter(x, 0.0f);
-    while (cell_of(x, f_.size()) < i) x = std::nextafter(x, 1.0f);
+    while (cell_of(x, n) > i) x = std::nextafter(x, 0.0f);
+    while (cell_of(x, n) < i) x = std::nextafter(x, 1.0f);
     return x;
 }
 
 float Distribution1D::pdf(float x) const {
-    if (x < 0 || x > 1 || f_.empty()) return 0;
-    if (!(integral_ > 0)) return 1;
-    return f_[cell_of(x, f_.size())] / integral_;
+    if (x < 0 || x > 1 || guide_.empty()) return 0;
+    return density(cell_of(x, guide_.size()));
 }
 
 std::optional<float> Distribution1D::invert(float x) const {
-    if (x < 0 || x > 1 || f_.empty()) return std::nullopt;
-    float const c = x * static_cast<float>(f_.size());
-    std::size_t const i = cell_of(x, f_.size());
+    if (x < 0 || x > 1 || guide_.empty()) return std::nullopt;
+    float const c = x * static_cast<float>(guide_.size());
+    std::size_t const i = cell_of(x, guide_.size());
     return lerp(c - static_cast<float>(i), cdf_[i], cdf_[i + 1]);
 }
 

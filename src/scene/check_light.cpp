@@ -15,6 +15,27 @@ void check_direction(Check const& c, Vec3 from, Vec3 to) {
     c.require(from != to, "the light's points `from` and `to` are the same: give it a direction");
 }
 
+/// A rectangle within pbrt-v4's tolerance: cosines within 0.001 of what they should be.
+void check_portal(Check const& c, std::array<Vec3, 4> const& corners) {
+    std::array<std::array<double, 3>, 4> side{};  // from each corner to the next
+    std::array<double, 4> length{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        c.require(is_finite(corners[i]), "the light's portal must have finite corners");
+        for (int k = 0; k < 3; ++k)
+            side[i][static_cast<std::size_t>(k)] =
+                static_cast<double>(corners[(i + 1) % 4][k]) - static_cast<double>(corners[i][k]);
+        length[i] = std::sqrt(side[i][0] * side[i][0] + side[i][1] * side[i][1] + side[i][2] * side[i][2]);
+        c.require(length[i] > 0, "the light's portal has two equal corners; give it four, in order");
+    }
+    auto const cosine = [&](std::size_t i, std::size_t j) {
+        return (side[i][0] * side[j][0] + side[i][1] * side[j][1] + side[i][2] * side[j][2]) /
+               (length[i] * length[j]);
+    };
+    c.require(cosine(0, 2) <= -0.999 && cosine(1, 3) <= -0.999 && std::abs(cosine(0, 1)) <= 1e-3 &&
+                  std::abs(cosine(0, 3)) <= 1e-3,
+              "the light's portal is not a rectangle; give its four corners in order");
+}
+
 void check_angles(Check const& c, std::vector<float> const& angles, float last, char const* what) {
     auto const say = [&](char const* wrong) { return std::string("the measured light's ") + what + wrong; };
     c.require(angles.size() >= 2, say(" angles must be at least two").c_str());
@@ -63,6 +84,7 @@ void check_light(Check const& c, Light const& light) {
         [&](InfiniteLight const& l) {
             check_spd(c, l.radiance, "the light's spectrum");
             check_strength(c, l.scale, l.illuminance);
+            if (l.portal) check_portal(c, *l.portal);
         },
         [&](GoniometricLight const& l) {
             check_spd(c, l.intensity, "the light's spectrum");

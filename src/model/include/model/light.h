@@ -67,6 +67,8 @@ struct EnvironmentTable {
     }
 };
 
+struct Portal;  // of an infinite light (portal.h)
+
 /// Derived from a Light when the world is compiled.
 struct LightData {
     RuntimeSpectrum emission;  // scale applied: W/sr, W/m^2/sr …, per nm in spectral mode
@@ -83,6 +85,7 @@ struct LightData {
         0;  // by picture or table, at a point: integral of the relative intensity over directions, sr …
     float peak = 0;  // … and its greatest value
     std::shared_ptr<EnvironmentTable const> table;
+    std::shared_ptr<Portal const> portal;
 };
 
 /// Throws Error with the light's place for NaN emission or singular transforms. May read the light's picture from assets.

@@ -51,23 +51,35 @@ inline AliasTable::Sample AliasTable::sample(double u) const {
 }
 
 /// Piecewise-constant density over [0,1], sampled by inversion (keeps stratification).
+///
+/// A float in [0,1) tells 2^24 places apart, so a cell of less probability than that would never be drawn, and one of little
+/// more too often or too seldom. Therefore every cell where f > 0 gets at least 2^-8 of an equal share, and cell edges in the
+/// cumulative distribution are multiples of 2^-24: a cell is drawn by a whole number of the 2^24 floats, and its density is
+/// that number. The density is exactly that of the samples, not of f, from which it differs by 2^-24 / (probability of the cell).
 class Distribution1D {
   public:
     Distribution1D() = default;
+    /// Values >= 0 (signs are ignored); all zero makes a uniform density.
     explicit Distribution1D(std::span<float const> f);
 
+    /// Of f, not of the density (which has 1).
     [[nodiscard]] float integral() const { return integral_; }
-    [[nodiscard]] std::size_t size() const { return f_.size(); }
+    [[nodiscard]] std::size_t size() const { return guide_.size(); }
     /// x in [0,1); `pdf` its density, `cell` where it fell.
     float sample(float u, float* pdf = nullptr, std::size_t* cell = nullptr) const;
     [[nodiscard]] float pdf(float x) const;
     [[nodiscard]] std::optional<float> invert(float x) const;
     [[nodiscard]] std::size_t bytes() const {
-        return (f_.size() + cdf_.size()) * sizeof(float) + guide_.size() * sizeof(std::uint32_t);
+        return cdf_.size() * sizeof(float) + guide_.size() * sizeof(std::uint32_t);
     }
 
   private:
-    std::vector<float> f_, cdf_;
+    /// Density in a cell: its 2^-24ths, exact, times the number of cells.
+    [[nodiscard]] float density(std::size_t cell) const {
+        return integral_ > 0 ? (cdf_[cell + 1] - cdf_[cell]) * static_cast<float>(guide_.size()) : 1.0f;
+    }
+
+    std::vector<float> cdf_;
     std::vector<std::uint32_t>
         guide_;  // guide_[k]: the cell of u = k / n, where the search for u >= k / n starts
     float integral_ = 0;

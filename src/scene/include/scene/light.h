@@ -7,6 +7,7 @@
 #include "spectrum/spd.h"
 
 #include <array>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -36,12 +37,14 @@ enum class EnvironmentMapping : std::uint8_t {
     EqualArea,  // Clarberg's octahedral square (pbrt-v4)
     LatLong     // longitude by latitude, twice as wide as high
 };
-/// Light from everywhere around: constant, or an image (then `radiance` only names the illuminant).
+/// Light from everywhere around: constant, or an image (then `radiance` only names the illuminant). With a portal it comes
+/// through that rectangle alone: four corners in order, in the world (pbrt-v4), such that (p3 - p0) x (p1 - p0) points outside.
 struct InfiniteLight {
     Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
     ImageId image;
     EnvironmentMapping mapping = EnvironmentMapping::BySize;
     float scale = 1, illuminance = -1;
+    std::optional<std::array<Vec3, 4>> portal;
 };
 /// Intensity by direction from a square equal-area picture (Clarberg's, its centre +y of light space: pbrt-v4 swaps y and
 /// z), nearest texel; of colours their average.
