@@ -160,15 +160,21 @@ LightKind make_light(std::string const& type, Params& p) {
            did_you_mean(type, {"point", "spot", "distant", "infinite", "goniometric", "projection"}));
 }
 
-AreaLight make_area_light(std::string const& type, Params& p) {
+AreaLight make_area_light(std::string const& type, Params& p, Textures& textures) {
     if (type == "area") p.fail("\"area\" is of pbrt-v2; in pbrt-v4 it is \"diffuse\"");
     if (type != "diffuse") p.fail("unknown area light; the only one is \"diffuse\"");
     AreaLight l;
-    if (p.find("L", kColour) && p.find("filename", {ParamType::String}))
+    auto const* colour =
+        p.find("L", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody, ParamType::Texture});
+    if (colour && p.find("filename", {ParamType::String}))
         p.fail("give either \"L\" or \"filename\", not both");
-    l.radiance = emission(p, "L");
+    if (colour && colour->type == ParamType::Texture) {
+        l.texture = textures.spectrum_param(p, "L", {}, SpectrumRole::Unbounded);
+    } else {
+        l.radiance = emission(p, "L");
+    }
     l.image = image_of(p);
-    if (l.image.valid()) l.radiance = picture_white();
+    if (l.image.valid() || l.texture.valid()) l.radiance = picture_white();
     l.scale = p.number("scale", 1);
     l.power = output(p, "power");
     l.two_sided = p.boolean("twosided", false);

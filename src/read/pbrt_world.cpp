@@ -74,7 +74,7 @@ void PbrtReader::light_source(Tokenizer& tokens, SourceLocation where) {
 void PbrtReader::area_light_source(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "AreaLightSource");
     auto p = params(tokens, "AreaLightSource", type, where, inherited(AttributeTarget::ForLight));
-    state_.area_light = std::make_shared<AreaLight const>(make_area_light(type, p));
+    state_.area_light = std::make_shared<AreaLight const>(make_area_light(type, p, textures_));
     p.note_unused();
 }
 
