@@ -45,6 +45,7 @@ void check_angles(Check const& c, std::vector<float> const& angles, float last, 
         c.require(angles[i] > angles[i - 1], say(" angles must increase").c_str());
 }
 void check_table(Check const& c, IntensityTable const& t) {
+    check_finite(c, t, "the measured light");
     check_angles(c, t.vertical, kPi, "vertical");
     check_angles(c, t.horizontal, kTwoPi, "horizontal");
     c.require(t.horizontal.front() == 0 && t.horizontal.back() >= kTwoPi * 0.999999f,
@@ -60,7 +61,6 @@ void check_table(Check const& c, IntensityTable const& t) {
 void check_light(Check const& c, Light const& light) {
     check_matrix(c, light.to_world, "the light's transform");
     check_ids(c, light.kind, "the light");
-    check_finite(c, light.kind, "the light");
     match(
         light.kind,
         [&](PointLight const& l) {
@@ -114,6 +114,7 @@ void check_light(Check const& c, Light const& light) {
             check_strength(c, l.scale, l.power);
             check_table(c, l.table);
         });
+    check_finite(c, light.kind, "the light");
 }
 
 void check_area_light(Check const& c, AreaLight const& light) {
