@@ -33,7 +33,10 @@ std::string name_of(MaterialKind const& m) {
 std::string name_of(LightKind const& l) {
     return match(
         l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
-        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; });
+        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
+        [](GoniometricLight const&) { return "goniometric"; },
+        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; },
+        [](SunSkyLight const&) { return "sunsky"; });
 }
 
 template <class List>

@@ -19,6 +19,23 @@ Spectrum intensity(GoniometricLight const& l, LightData const& d, Assets const& 
     Texel const at = nearest_texel(assets.pyramid(l.image).level(0), st);
     return d.emission.sample(lambda) * relative(l, assets, at);
 }
+/// Mean over a texel of how much a transform that changes angles widens solid angles; 1 where it does not.
+float widening(LightData const& d, int side, Texel at) {
+    if (d.volume_scale == 0.0f) return 1.0f;
+    int const n = std::max(2, 256 / side);
+    float sum = 0;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            auto const within = [&](int texel, int part) {
+                return (static_cast<float>(texel) +
+                        (static_cast<float>(part) + 0.5f) / static_cast<float>(n)) /
+                       static_cast<float>(side);
+            };
+            Vec2 const st{within(at.x, i), within(at.y, j)};
+            sum += 1.0f / direction_density(d, swapped(equal_area_square_to_sphere(st)));
+        }
+    return sum / static_cast<float>(n * n);
+}
 float density(LightData const& d, Vec3 w) {
     Vec3 const local = local_direction(d, w);
     return d.table->distribution.pdf(equal_area_sphere_to_square(swapped(local))) / kElement *
@@ -43,11 +60,9 @@ LightData prepare(GoniometricLight const& l, Light const& light, Assets& assets)
     double sum = 0;
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            Vec2 const st{(static_cast<float>(x) + 0.5f) / static_cast<float>(side),
-                          (static_cast<float>(y) + 0.5f) / static_cast<float>(side)};
             float const value = relative(l, assets, {x, y});
             d.peak = std::max(d.peak, value);
-            f.push_back(value / direction_density(d, swapped(equal_area_square_to_sphere(st))));
+            f.push_back(value * widening(d, side, {x, y}));
             sum += static_cast<double>(f.back());
         }
     double const flux = sum / static_cast<double>(f.size()) * static_cast<double>(kElement);

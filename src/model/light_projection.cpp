@@ -25,6 +25,25 @@ Vec3 to_direction(LightData const& d, Vec2 st) {
 float element(LightData const& d, Vec3 local) {
     return 4.0f * d.window.x * d.window.y * local.z * local.z * local.z;
 }
+/// Of a triangle seen from the origin (Van Oosterom & Strackee 1983).
+double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
+    auto const at = [](Vec3 u, Vec3 v) { return static_cast<double>(dot(u, v)); };
+    double const la = std::sqrt(at(a, a));
+    double const lb = std::sqrt(at(b, b));
+    double const lc = std::sqrt(at(c, c));
+    double const volume = std::abs(static_cast<double>(dot(a, cross_accurate(b - a, c - a))));
+    return 2 * std::atan2(volume, la * lb * lc + at(a, b) * lc + at(b, c) * la + at(c, a) * lb);
+}
+/// Of a texel of the picture, seen in the world: exact, also for few large ones and for transforms that change angles.
+double solid_angle(LightData const& d, int width, int height, Texel t) {
+    auto const corner = [&](int i, int j) {
+        float const s = static_cast<float>(t.x + i) / static_cast<float>(width);
+        float const v = static_cast<float>(t.y + j) / static_cast<float>(height);
+        return d.to_world.vector({(2.0f * s - 1.0f) * d.window.x, (1.0f - 2.0f * v) * d.window.y, 1.0f});
+    };
+    return solid_angle(corner(0, 0), corner(1, 0), corner(0, 1)) +
+           solid_angle(corner(1, 1), corner(1, 0), corner(0, 1));
+}
 Vec3 colour(ProjectionLight const& l, Assets const& assets, Texel at) {
     return max(assets.pyramid(l.image).texel_rgb(0, at.x, at.y), Vec3{0.0f});
 }
@@ -58,19 +77,18 @@ LightData prepare(ProjectionLight const& l, Light const& light, Assets& assets) 
     std::vector<float> f;
     double sum = 0;
     double lumens = 0;
+    double const texels = static_cast<double>(width) * height;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            Vec3 const local = to_direction(d, {(static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                                                (static_cast<float>(y) + 0.5f) / static_cast<float>(height)});
             Vec3 const rgb = colour(l, assets, {x, y});
             float const mean = (rgb.x + rgb.y + rgb.z) / 3.0f;
-            float const there = element(d, local) / direction_density(d, local);
+            // As a share of the square: the mean of d(solid angle) / d(square) over the texel.
+            auto const there = static_cast<float>(solid_angle(d, width, height, {x, y}) * texels);
             d.peak = std::max({d.peak, rgb.x, rgb.y, rgb.z});
             f.push_back(mean * there);
             sum += static_cast<double>(f.back());
             lumens += static_cast<double>(luminance(rgb) * there);
         }
-    auto const texels = static_cast<double>(f.size());
     d.flux = static_cast<float>(sum / texels);
     d.table = std::make_shared<EnvironmentTable>(EnvironmentTable{Distribution2D(f, width, height), {}, {}});
     // Colours of the picture are shares of sRGB's white.

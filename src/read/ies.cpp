@@ -15,7 +15,7 @@ namespace nephroid {
 namespace {
 
 constexpr std::int64_t kMostAngles = 10'000;
-constexpr std::int64_t kMostValues = 1'000'000;  // real files stay below 10^5
+constexpr std::int64_t kMostValues = 4'000'000;  // every quarter of a degree would be 10^6
 
 constexpr std::string_view kBlanks = " \t\r\v\f\x1a";  // with the end of file of DOS
 std::string_view trimmed(std::string_view s) {
@@ -106,6 +106,12 @@ class Reader {
                  ErrorKind::Limit);
         return static_cast<std::int64_t>(v);
     }
+    int choice(std::string const& what, int most) {
+        float const v = number(what);
+        for (int i = 1; i <= most; ++i)
+            if (v == static_cast<float>(i)) return i;
+        fail(what + " must be a whole number from 1 to " + std::to_string(most));
+    }
     float factor(std::string const& what) {
         float const v = number(what);
         if (!(v > 0)) fail(what + " must be above 0");
@@ -136,10 +142,9 @@ class Reader {
     }
 
     void numbers() {
-        std::int64_t const lamps = count("the number of lamps", 0, kMostAngles);
-        float const lumens = number("the lumens of a lamp");
-        if (lumens >= 0 && lamps > 0)
-            file_.lamp_lumens = static_cast<double>(lumens) * static_cast<double>(lamps);
+        // What the intensities are of is known already: they are candela, whatever the lamps gave (-1: not measured apart).
+        number("the number of lamps");
+        number("the lumens of a lamp");
         float scale = factor("the candela multiplier");
         std::int64_t const n_vertical = count("the number of vertical angles", 2, kMostAngles);
         std::int64_t const n_horizontal = count("the number of horizontal angles", 1, kMostAngles);
@@ -148,11 +153,11 @@ class Reader {
                      " intensities are more than are read (" + std::to_string(kMostValues) +
                      "); thin the table out",
                  ErrorKind::Limit);
-        std::int64_t const type = count("the photometric type", 1, 3);
+        int const type = choice("the photometric type", 3);
         if (type != 1)
             fail(std::string("photometric type ") + (type == 2 ? "B" : "A") +
                  " is not read; convert the file to type C");
-        count("the unit of lengths", 1, 2);
+        choice("the unit of lengths", 2);
         for (char const* const what :
              {"the width of the opening", "the length of the opening", "the height of the opening"})
             number(what);  // the light is a point

@@ -13,9 +13,7 @@ namespace nephroid {
 
 struct IesFile {
     IntensityTable
-        table;  // multiplier and ballast factors applied; all the way around, whatever symmetry the file uses
-    double lamp_lumens =
-        -1;  // of all lamps together, as the file says; below 0: not said (absolute photometry)
+        table;  // multiplier and ballast factors applied; all around, whatever symmetry the file uses
     std::vector<std::string> notes;  // "name:line: text"
 };
 

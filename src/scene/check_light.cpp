@@ -45,6 +45,7 @@ void check_angles(Check const& c, std::vector<float> const& angles, float last, 
         c.require(angles[i] > angles[i - 1], say(" angles must increase").c_str());
 }
 void check_table(Check const& c, IntensityTable const& t) {
+    check_finite(c, t, "the measured light");
     check_angles(c, t.vertical, kPi, "vertical");
     check_angles(c, t.horizontal, kTwoPi, "horizontal");
     c.require(t.horizontal.front() == 0 && t.horizontal.back() >= kTwoPi * 0.999999f,
@@ -60,7 +61,6 @@ void check_table(Check const& c, IntensityTable const& t) {
 void check_light(Check const& c, Light const& light) {
     check_matrix(c, light.to_world, "the light's transform");
     check_ids(c, light.kind, "the light");
-    check_finite(c, light.kind, "the light");
     match(
         light.kind,
         [&](PointLight const& l) {
@@ -86,6 +86,18 @@ void check_light(Check const& c, Light const& light) {
             check_strength(c, l.scale, l.illuminance);
             if (l.portal) check_portal(c, *l.portal);
         },
+        [&](SunSkyLight const& l) {
+            check_strength(c, l.scale, -1);
+            c.require(l.turbidity >= 1.7f && l.turbidity <= 10,
+                      "the sky's turbidity must be from 1.7 (pure air) to 10 (haze)");
+            c.require(is_finite(l.sun_direction) && l.sun_direction != Vec3{0, 0, 0},
+                      "the direction of the sun must be finite and not (0, 0, 0)");
+            c.require(l.sun_direction.z >= 0,
+                      "the sun is below the horizon (z < 0), where this model of the sky ends: raise it");
+            c.require(l.sun_radius > 0 && l.sun_radius <= kPi / 4,
+                      "half of the sun's angle must be above 0 and at most 45 degrees");
+            c.require(l.sun || l.sky, "a light of neither sun nor sky: leave it out, or turn on one of them");
+        },
         [&](GoniometricLight const& l) {
             check_spd(c, l.intensity, "the light's spectrum");
             check_strength(c, l.scale, l.power);
@@ -102,6 +114,7 @@ void check_light(Check const& c, Light const& light) {
             check_strength(c, l.scale, l.power);
             check_table(c, l.table);
         });
+    check_finite(c, light.kind, "the light");
 }
 
 void check_area_light(Check const& c, AreaLight const& light) {

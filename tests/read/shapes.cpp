@@ -103,8 +103,9 @@ TEST_CASE("lights") {
         LightSource "distant" "float illuminance" 9
         LightSource "infinite" "string filename" "/sky.exr" "string mapping" "latlong" "float scale" 2
         LightSource "infinite" "blackbody L" 5000
-        LightSource "projection" "string filename" "/slide.png" "float fov" 40 "float power" 40)");
-    REQUIRE(scene.lights.size() == 6);
+        LightSource "projection" "string filename" "/slide.png" "float fov" 40 "float power" 40
+        LightSource "goniometric" "string filename" "/lamp.exr" "blackbody I" 3000 "float scale" 3)");
+    REQUIRE(scene.lights.size() == 7);
     auto const& p = as<PointLight>(scene.lights[0].kind);
     CHECK(as<RgbIlluminantSpd>(p.intensity).rgb == Vec3{1, 2, 3});
     CHECK(p.scale == 4);
@@ -123,9 +124,21 @@ TEST_CASE("lights") {
     CHECK(sky.mapping == EnvironmentMapping::LatLong);
     CHECK(sky.scale == 2);
     CHECK(as<BlackbodySpd>(as<InfiniteLight>(scene.lights[4].kind).radiance).kelvin == 5000);
-    CHECK(as<PointLight>(scene.lights[5].kind).power == 40);
-    CHECK(scene.notes.size() == 1);
-    CHECK(contains(notes(scene), "t.pbrt:9: LightSource \"projection\": \"projection\" is not rendered yet"));
+    auto const& slide = as<ProjectionLight>(scene.lights[5].kind);
+    CHECK(scene[slide.image].path == "/slide.png");
+    CHECK(slide.fov == doctest::Approx(40 * kPi / 180));
+    CHECK(slide.power == 40);
+    auto const& lamp = as<GoniometricLight>(scene.lights[6].kind);
+    CHECK(scene[lamp.image].path == "/lamp.exr");
+    CHECK(as<BlackbodySpd>(lamp.intensity).kelvin == 3000);
+    CHECK(lamp.scale == 3);
+    CHECK(notes(scene).empty());
+    CHECK(contains(error_in_world("LightSource \"goniometric\""),
+                   "it needs a \"filename\" of a square equal-area"));
+    CHECK(contains(error_in_world("LightSource \"projection\""), "it needs a \"filename\" of a picture"));
+    CHECK(
+        contains(error_in_world("LightSource \"projection\" \"string filename\" \"a.png\" \"float fov\" 180"),
+                 "\"fov\" must be above 0 and below 180"));
 
     CHECK(contains(error_in_world("LightSource \"infinite\" \"rgb L\" [1 1 1] \"string filename\" \"a.exr\""),
                    "not both"));
