@@ -35,7 +35,8 @@ std::string name_of(LightKind const& l) {
         l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
         [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
         [](GoniometricLight const&) { return "goniometric"; },
-        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; });
+        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; },
+        [](SunSkyLight const&) { return "sunsky"; });
 }
 
 template <class List>

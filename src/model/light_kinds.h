@@ -36,6 +36,7 @@ NEPHROID_LIGHT(GoniometricLight)
 NEPHROID_LIGHT(ProjectionLight)
 NEPHROID_LIGHT(MeasuredLight)
 NEPHROID_ENVIRONMENT(InfiniteLight)
+NEPHROID_ENVIRONMENT(SunSkyLight)
 #undef NEPHROID_LIGHT
 #undef NEPHROID_ENVIRONMENT
 
@@ -62,6 +63,7 @@ static_assert(LightModel<GoniometricLight>);
 static_assert(LightModel<ProjectionLight>);
 static_assert(LightModel<MeasuredLight>);
 static_assert(EnvironmentModel<InfiniteLight>);
+static_assert(EnvironmentModel<SunSkyLight>);
 
 // --- what kinds share -------------------------------------------------------------------------------------------------
 /// The light's transform; fails at the light where it has no inverse.

@@ -4,7 +4,9 @@
 
 #include "spectra.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace nephroid {
 
@@ -96,6 +98,45 @@ InfiniteLight infinite(Params& p) {
     return l;
 }
 
+SunSkyLight sun_sky(Params& p) {
+    SunSkyLight l;
+    float const turbidity = p.number("turbidity", l.turbidity);
+    if (turbidity < 1) p.fail("\"turbidity\" is below 1, that of air without any haze; 2 is a clear day");
+    l.turbidity = std::clamp(turbidity, 1.7f, 10.0f);
+    if (l.turbidity != turbidity)
+        p.note("the sky is known for a \"turbidity\" from 1.7 to 10: it was clamped to " +
+               std::string(turbidity < 2 ? "1.7" : "10"));
+    if (auto const* given = p.find("sundirection", {ParamType::Vector3})) {
+        for (auto const* angle : {"elevation", "azimuth"})
+            if (p.find(angle, {ParamType::Float}))
+                p.context().fail(given->where, p.what() +
+                                                   ": give either \"sundirection\" or \"elevation\" and "
+                                                   "\"azimuth\", not both");
+        l.sun_direction = p.vector3("sundirection", l.sun_direction);
+    } else {
+        float const elevation = p.number("elevation", 45);
+        float const azimuth = radians(p.number("azimuth", 0));
+        if (!(elevation >= -90 && elevation <= 90)) p.fail("\"elevation\" must be from -90 to 90 degrees");
+        // Exactly in the zenith where the file says so.
+        float const up = std::sin(radians(elevation));
+        float const along = std::abs(elevation) == 90 ? 0.0f : std::cos(radians(elevation));
+        l.sun_direction = {along * std::cos(azimuth), along * std::sin(azimuth), up};
+    }
+    if (l.sun_direction == Vec3{0, 0, 0}) p.fail("\"sundirection\" is (0, 0, 0): it has no direction");
+    if (l.sun_direction.z < 0) {
+        p.note(
+            "the sun is below the horizon, where this model of the sky ends: it was raised to the horizon");
+        l.sun_direction.z = 0;
+        if (l.sun_direction == Vec3{0, 0, 0})
+            p.fail("the sun is at the nadir: it has no place on the horizon");
+    }
+    l.sun_radius = radians(p.number("sunsize", 0.2665f));
+    l.scale = p.number("scale", 1);
+    l.sun = p.boolean("sun", true);
+    l.sky = p.boolean("sky", true);
+    return l;
+}
+
 /// The file that a light cannot do without.
 std::string needed_file(Params& p, char const* what) {
     auto name = p.string("filename", "");
@@ -153,11 +194,12 @@ LightKind make_light(std::string const& type, Params& p) {
     if (type == "spot") return spot(p);
     if (type == "distant") return distant(p);
     if (type == "infinite") return infinite(p);
+    if (type == "sunsky") return sun_sky(p);
     if (type == "goniometric") return goniometric(p);
     if (type == "projection") return projection(p);
     if (type == "exinfinite") p.fail("\"exinfinite\" is of pbrt-v3; in pbrt-v4 it is \"infinite\"");
-    p.fail("unknown light" +
-           did_you_mean(type, {"point", "spot", "distant", "infinite", "goniometric", "projection"}));
+    p.fail("unknown light" + did_you_mean(type, {"point", "spot", "distant", "infinite", "sunsky",
+                                                 "goniometric", "projection"}));
 }
 
 AreaLight make_area_light(std::string const& type, Params& p, Textures& textures) {

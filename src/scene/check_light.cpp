@@ -86,6 +86,18 @@ void check_light(Check const& c, Light const& light) {
             check_strength(c, l.scale, l.illuminance);
             if (l.portal) check_portal(c, *l.portal);
         },
+        [&](SunSkyLight const& l) {
+            check_strength(c, l.scale, -1);
+            c.require(l.turbidity >= 1.7f && l.turbidity <= 10,
+                      "the sky's turbidity must be from 1.7 (pure air) to 10 (haze)");
+            c.require(is_finite(l.sun_direction) && l.sun_direction != Vec3{0, 0, 0},
+                      "the direction of the sun must be finite and not (0, 0, 0)");
+            c.require(l.sun_direction.z >= 0,
+                      "the sun is below the horizon (z < 0), where this model of the sky ends: raise it");
+            c.require(l.sun_radius > 0 && l.sun_radius <= kPi / 4,
+                      "half of the sun's angle must be above 0 and at most 45 degrees");
+            c.require(l.sun || l.sky, "a light of neither sun nor sky: leave it out, or turn on one of them");
+        },
         [&](GoniometricLight const& l) {
             check_spd(c, l.intensity, "the light's spectrum");
             check_strength(c, l.scale, l.power);

@@ -216,6 +216,9 @@ TEST_CASE("lights out of range are refused") {
     auto const spot = [](auto change) {
         return [change](Scene& s) { change(std::get<SpotLight>(s.lights[0].kind)); };
     };
+    auto const day = [](auto change) {
+        return [change](Scene& s) { change(s.lights[1].kind.emplace<SunSkyLight>()); };
+    };
     all_refused({
         {"scene.pbrt:10: the light's scale", spot([](SpotLight& l) { l.scale = -1; })},
         {"the light's scale", spot([](SpotLight& l) { l.scale = kNan; })},
@@ -229,6 +232,15 @@ TEST_CASE("lights out of range are refused") {
          })},
         {"scene.pbrt:11: the light's scale",
          [](Scene& s) { std::get<InfiniteLight>(s.lights[1].kind).scale = -1; }},
+        {"scene.pbrt:11: the sky's turbidity", day([](SunSkyLight& l) { l.turbidity = 1.5f; })},
+        {"scene.pbrt:11: the sky's turbidity", day([](SunSkyLight& l) { l.turbidity = kNan; })},
+        {"direction of the sun", day([](SunSkyLight& l) {
+             l.sun_direction = {0, 0, 0};
+         })},
+        {"direction of the sun", day([](SunSkyLight& l) { l.sun_direction.x = kNan; })},
+        {"below the horizon", day([](SunSkyLight& l) { l.sun_direction.z = -0.1f; })},
+        {"half of the sun's angle", day([](SunSkyLight& l) { l.sun_radius = 0; })},
+        {"neither sun nor sky", day([](SunSkyLight& l) { l.sun = l.sky = false; })},
         {"scene.pbrt:15: the light's scale", [](Scene& s) { s.world().objects[0].light->scale = -1; }},
     });
 }

@@ -68,6 +68,7 @@ struct EnvironmentTable {
 };
 
 struct Portal;  // of an infinite light (portal.h)
+struct SunSky;  // what a SunSkyLight is made ready as (light_sunsky.cpp)
 
 /// Derived from a Light when the world is compiled.
 struct LightData {
@@ -86,6 +87,7 @@ struct LightData {
     float peak = 0;  // … and its greatest value
     std::shared_ptr<EnvironmentTable const> table;
     std::shared_ptr<Portal const> portal;
+    std::shared_ptr<SunSky const> sun_sky;
 };
 
 /// Throws Error with the light's place for NaN emission or singular transforms. May read the light's picture from assets.

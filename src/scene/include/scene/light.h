@@ -72,8 +72,18 @@ struct MeasuredLight {
     IntensityTable table;
     float scale = 1, power = -1;
 };
+/// Daylight: a clear or hazy sky above the horizon of the light's space, whose +z is the zenith, and the sun in it (Preetham,
+/// Shirley & Smits 1999). At scale 1 luminances are in kcd/m^2; below the horizon it is black. A sun of another radius than
+/// the real one gives the same irradiance.
+struct SunSkyLight {
+    float turbidity = 3;                              // 1.7 (pure air) to 10 (haze)
+    Vec3 sun_direction{0.70710678f, 0, 0.70710678f};  // towards it, of any length; at or above the horizon
+    float sun_radius = 0.0046513f;                    // half of the angle that it is seen under
+    float scale = 1;
+    bool sun = true, sky = true;
+};
 using LightKind = std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, GoniometricLight,
-                               ProjectionLight, MeasuredLight>;
+                               ProjectionLight, MeasuredLight, SunSkyLight>;
 
 struct Light {
     LightKind kind;
