@@ -482,6 +482,31 @@ TEST_CASE("cylinder by solid angle: directions are drawn from the density") {
     directions_against_density(cylinders(), 3000);
 }
 
+TEST_CASE("by solid angle: all that is seen has nearly the same density") {
+    auto const check = [](auto const& cases, double variance, double greatest) {
+        std::uint64_t seed = 700;
+        for (auto const& c : cases) {
+            auto const light = look(c.shape, c.from, c.sides);
+            REQUIRE(light);
+            Random r(seed++);
+            Mean weight;
+            double most = 0;
+            for (int i = 0; i < 20'000; ++i) {
+                SeenSample s;
+                if (!light->sample(random_square(r), s)) continue;
+                weight.add(1 / static_cast<double>(s.pdf));
+                most = std::max(most, 1 / static_cast<double>(s.pdf));
+            }
+            INFO(c.name, " ", weight.variance() / (weight.mean() * weight.mean()), " ", most / weight.mean());
+            CHECK(weight.variance() < variance * weight.mean() * weight.mean());
+            CHECK(most < greatest * weight.mean());
+        }
+    };
+    check(spheres(), 1e-12, 1.0001);
+    check(disks(), 1e-4, 1.03);
+    check(cylinders(), 0.03, 1.5);
+}
+
 TEST_CASE("sphere by solid angle: inverse, ends, scaled scenes") { inverse_ends_scales(spheres()); }
 TEST_CASE("disk by solid angle: inverse, ends, scaled scenes") { inverse_ends_scales(disks()); }
 TEST_CASE("cylinder by solid angle: inverse, ends, scaled scenes") { inverse_ends_scales(cylinders()); }
@@ -514,8 +539,9 @@ TEST_CASE("irradiance: spheres and disks in closed form, cylinders by quadrature
     INFO(inside);
     CHECK(inside);
     // A disk over a parallel receiver, a aside (Wikipedia, "View factor"; VERIFICATION).
-    for (auto const& [h, a] :
+    for (auto const& place :
          {std::pair{1.5, 0.0}, {1.5, 1.5}, {0.1, 1.0}, {0.02, 1.49}, {0.1, 4.0}, {30.0, 40.0}}) {
+        double const h = place.first, a = place.second;
         double const radius = 1.5, s = h * h + a * a + radius * radius;
         double const expected =
             kPiD / 2 * (1 - (s - 2 * radius * radius) / std::sqrt(s * s - 4 * radius * radius * a * a));
@@ -531,10 +557,12 @@ TEST_CASE("irradiance: spheres and disks in closed form, cylinders by quadrature
         Vec3 from;
         EmittingSides sides;
     };
-    for (auto const& [from, sides] :
+    for (Seat const& seat :
          {Seat{{2, 0.5f, 0.2f}, kFront}, Seat{{1.5f, 1, 3}, kFront}, Seat{{30, 20, -10}, kFront},
           Seat{{0.8f, 0, 0.9f}, kFront}, Seat{{0.3f, 0.2f, 0.4f}, kBack}, Seat{{0.1f, 0.4f, 2}, kBack},
           Seat{{0, 0, 1.3f}, kBoth}}) {
+        Vec3 const from = seat.from;
+        EmittingSides const sides = seat.sides;
         D3 const up = unit(D3{-static_cast<double>(from.x), 0.3 - static_cast<double>(from.y),
                               0.5 - static_cast<double>(from.z)});
         double expected = 0;
