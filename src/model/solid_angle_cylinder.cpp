@@ -63,6 +63,12 @@ struct CylinderSeen::Place {
 std::optional<CylinderSeen> seen(Cylinder const& shape, Vec3 from, EmittingSides sides) {
     std::optional<CylinderSeen> r;
     if (shape.phi_max < kTwoPi) return r;
+    // On the wall itself rounding says which side the receiver is on; by area what it sees of the inside is bounded.
+    double const x = from.x;
+    double const y = from.y;
+    double const radius = shape.radius;
+    double const off = std::sqrt(x * x + y * y) - radius;
+    if (sides != EmittingSides::Front && std::abs(off) < kOnSurface * radius) return r;
     r.emplace(shape, from, sides);
     if (r->empty()) r.reset();
     return r;

@@ -21,6 +21,9 @@ std::optional<SphereSeen> seen(Sphere const& shape, Vec3 from, EmittingSides sid
     if (!full) return r;
     double const radius = shape.radius;
     double const off = std::sqrt(squared_length(from)) - radius;
+    // On the surface itself rounding says which side the receiver is on. By area its inside is seen without any noise from there:
+    // the product of the cosines over the squared distance is the same everywhere.
+    if (sides != EmittingSides::Front && std::abs(off) < kOnSurface * radius) return r;
     bool const visible = off > 0 ? sides != EmittingSides::Back : off < 0 && sides != EmittingSides::Front;
     if (visible) r.emplace(shape.radius, from);
     return r;

@@ -132,7 +132,9 @@ std::vector<Corners> triangles_from(RectangleAxes const& axes, Vec3 at) {
 template <class F>
 void for_triangles(F const& f) {
     RectangleAxes const axes = rectangle_axes(kEdgeX, kEdgeY);
-    for (auto const& [name, at] : kReceivers) {
+    for (auto const& receiver : kReceivers) {
+        std::string const& name = receiver.first;
+        Vec3 const at = receiver.second;
         int k = 0;
         for (Corners const& t : triangles_from(axes, at)) {
             INFO(name, ", triangle ", k++);
@@ -174,7 +176,9 @@ TEST_CASE("sines, cosines and angles by polynomials are exact to 2e-10, small on
 
 TEST_CASE("rectangle: the solid angle, from everywhere") {
     RectangleAxes const axes = rectangle_axes(kEdgeX, kEdgeY);
-    for (auto const& [name, at] : kReceivers) {
+    for (auto const& receiver : kReceivers) {
+        std::string const& name = receiver.first;
+        Vec3 const at = receiver.second;
         INFO(name);
         Vec3 const s = corner_of(axes, at);
         Placed const p = place(axes, s);
@@ -194,7 +198,9 @@ TEST_CASE("rectangle: chi square of the points against the solid angles of 400 c
     double const alpha = sidak(static_cast<int>(kReceivers.size()));
     int const n = samples(1'000'000, 4'000'000);
     std::uint64_t seed = 100;
-    for (auto const& [name, at] : kReceivers) {
+    for (auto const& receiver : kReceivers) {
+        std::string const& name = receiver.first;
+        Vec3 const at = receiver.second;
         Vec3 const s = corner_of(axes, at);
         Placed const p = place(axes, s);
         SphericalRectangle const rectangle(axes, s);
@@ -222,7 +228,9 @@ TEST_CASE("rectangle: chi square of the points against the solid angles of 400 c
 TEST_CASE("rectangle: inverse, Jacobian, ends, and scaled scenes") {
     RectangleAxes const axes = rectangle_axes(kEdgeX, kEdgeY);
     Random r(3);
-    for (auto const& [name, at] : kReceivers) {
+    for (auto const& receiver : kReceivers) {
+        std::string const& name = receiver.first;
+        Vec3 const at = receiver.second;
         INFO(name);
         Vec3 const s = corner_of(axes, at);
         SphericalRectangle const q(axes, s);
@@ -409,7 +417,9 @@ TEST_CASE("irradiance by Lambert's formula, with and without the cosine's warp, 
     double const alpha = sidak(tests * 4);
     int better = 0, worse = 0;
     std::uint64_t seed = 300;
-    for (auto const& [name, at] : kReceivers) {
+    for (auto const& receiver : kReceivers) {
+        std::string const& name = receiver.first;
+        Vec3 const at = receiver.second;
         if (std::abs(at.z) <= 0.01f) continue;
         Vec3 const s = corner_of(axes, at);
         // A horizon that the whole rectangle is above of, and close to some of it.

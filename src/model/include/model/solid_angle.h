@@ -2,7 +2,7 @@
 // is placed by a map takes the receiver into this space and multiplies the density by the map's Jacobian of directions.
 //
 // seen(shape, from, sides) is made once for a receiver. It is nothing where the caller does better by area (far disks), where that
-// is the only way (shapes that are cut), and where the receiver cannot see an emitting side at all.
+// is the only way (shapes that are cut), where the receiver is on the shape, and where it cannot see an emitting side at all.
 #pragma once
 
 #include "math/frame.h"
@@ -30,6 +30,9 @@ struct SeenSample {
 //   sample(u, s)   fills `s`; false where u leads to nothing
 //   pdf(p)         the density of directions at a point of the surface; 0 where it is never drawn
 //   invert(p)      the u that sample() makes p of
+
+/// Closer than this, in radii, a receiver may be a rounded point of the surface.
+inline constexpr double kOnSurface = 1e-5;
 
 /// From outside, the cone around the sphere, uniformly (Shirley, Wang and Zimmerman 1996); from inside, all directions.
 class SphereSeen {
