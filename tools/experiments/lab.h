@@ -15,7 +15,7 @@ struct Lab {
 
     /// Passes of measurements that need no particular number.
     [[nodiscard]] std::uint64_t passes(std::uint64_t n) const {
-        return quick ? std::max<std::uint64_t>(4, n / 256) : n;
+        return quick ? std::max<std::uint64_t>(4, n / 32) : n;
     }
     [[nodiscard]] int pixels(int n) const { return quick ? std::max(6, n / 6) : n; }
     [[nodiscard]] int seeds(int n) const { return quick ? 2 : n; }

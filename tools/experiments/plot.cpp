@@ -96,6 +96,16 @@ struct Tick {
     std::string label;  // empty: a small one
 };
 
+/// 10⁻⁴ where 0.0001 would be long.
+std::string power_of_ten(int exponent) {
+    if (exponent > -4 && exponent < 5) return number(std::pow(10.0, exponent), 1);
+    constexpr std::array<char const*, 10> kRaised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string s = exponent < 0 ? "10⁻" : "10";
+    for (char const digit : std::to_string(std::abs(exponent)))
+        s += kRaised[static_cast<std::size_t>(digit - '0')];
+    return s;
+}
+
 std::vector<Tick> logarithmic_ticks(Range r) {
     bool const few = r.hi / r.lo < 30;  // then 2 and 5 have labels too
     std::vector<Tick> ticks;
@@ -104,7 +114,7 @@ std::vector<Tick> logarithmic_ticks(Range r) {
             double const v = m * std::pow(10.0, e);
             if (v < r.lo || v > r.hi) continue;
             bool const named = m == 1 || (few && (m == 2 || m == 5));
-            ticks.push_back({v, named ? number(v, 1) : ""});
+            ticks.push_back({v, m == 1 ? power_of_ten(e) : named ? number(v, 1) : ""});
         }
     return ticks;
 }

@@ -86,7 +86,7 @@ void write_sheet(std::filesystem::path const& path, std::vector<std::string> con
     std::size_t widest = 0;
     for (SheetRow const& r : rows)
         for (auto const& w : words(r.label)) widest = std::max(widest, w.size());
-    int const left = widest > 0 ? static_cast<int>(widest) * kAdvance + kGap : 0;
+    int const left = widest > 0 ? static_cast<int>(widest) * kAdvance + 2 * kGap : 0;
     int const top = columns.empty() ? 0 : kLineHeight;
     Image image(PixelFormat::U8, left + static_cast<int>(first.size()) * (width + kGap) - kGap,
                 top + static_cast<int>(rows.size()) * (height + kGap) - kGap,
@@ -100,7 +100,7 @@ void write_sheet(std::filesystem::path const& path, std::vector<std::string> con
     int y = top;
     for (SheetRow const& r : rows) {
         int line = y + 2;
-        for (auto const& w : words(r.label)) write(image, 0, line, w), line += kLineHeight;
+        for (auto const& w : words(r.label)) write(image, kDot, line, w), line += kLineHeight;
         int x = left;
         for (Picture const& p : r.pictures) copy(image, x, y, p, r.exposure), x += width + kGap;
         y += height + kGap;

@@ -62,8 +62,8 @@ void hemispheres(Lab const& lab) {
         Setup const setup = prepare(
             floor + scenes::light(1, fmt::format("Translate {} 0 {}\nShape \"sphere\" \"float radius\" 1\n",
                                                  10 * std::sin(theta), 10 * std::cos(theta))));
-        auto const by_uniform = variance_per_sample(setup, direct("uniform"), lab.passes(4096), seeds);
-        auto const by_cosine = variance_per_sample(setup, direct("cosine"), lab.passes(4096), seeds);
+        auto const by_uniform = variance_per_sample(setup, direct("uniform"), lab.passes(2048), seeds);
+        auto const by_cosine = variance_per_sample(setup, direct("cosine"), lab.passes(2048), seeds);
         double const ratio = second_moment(by_uniform) / second_moment(by_cosine);
         double const error = ratio * std::hypot(by_uniform.error / second_moment(by_uniform),
                                                 by_cosine.error / second_moment(by_cosine));

@@ -61,7 +61,7 @@ void light_shapes(Lab const& lab) {
             Setup const setup = prepare(
                 scenes::floor_view(n, n, scenes::Pixels::Points, -1, 1, -1, 1) + scenes::matte(0.5f) +
                 scenes::floor() + scenes::light(1, fmt::format("Translate 0 0 {}\n", height) + e.shape));
-            std::uint64_t const passes = lab.passes(1024);
+            std::uint64_t const passes = lab.passes(512);
             int const seeds = lab.seeds(4);
             auto const before = variance_per_sample(setup, std::string(kBefore) + kSampler, passes, seeds);
             auto const after = variance_per_sample(setup, std::string(kAfter) + kSampler, passes, seeds);
