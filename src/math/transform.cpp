@@ -136,6 +136,14 @@ Vec3 Transform::error(Rows const& r, Vec3 p, Vec3 e) {
     return out;
 }
 
+float direction_scale(Vec3 x, Vec3 y, Vec3 z) {
+    float const scale2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0f;
+    auto const small = [&](float v) { return std::abs(v) <= 1e-6f * scale2; };
+    bool const similar = small(dot(x, y)) && small(dot(y, z)) && small(dot(z, x)) &&
+                         small(dot(x, x) - scale2) && small(dot(y, y) - scale2) && small(dot(z, z) - scale2);
+    return similar ? 0.0f : abs_dot(x, cross_accurate(y, z));
+}
+
 std::optional<Transform> make_transform(Mat4 const& m) {
     if (!is_affine(m)) return std::nullopt;
     auto const inv = inverse(m);

@@ -37,6 +37,69 @@ std::optional<LightSample> sample_from_point(LightData const& d, Vec3 p, Spectru
     return result;
 }
 
+std::optional<EmissionSample> emission_from_point(LightData const& d, Vec3 w, Spectrum intensity, float pdf) {
+    std::optional<EmissionSample> result;
+    if (!(pdf > 0.0f) || !std::isfinite(pdf) || intensity.is_black()) return result;
+    EmissionSample& s = result.emplace();
+    s.ray = {d.position, w};
+    s.radiance = intensity;
+    s.pdf_direction = pdf;
+    s.delta_position = true;
+    return result;
+}
+
+std::optional<EmissionSample> emission_from_infinity(BoundingSphere const& scene, Vec3 to_light,
+                                                     Spectrum radiance, float pdf_direction, bool delta,
+                                                     Vec2 u_position) {
+    std::optional<EmissionSample> result;
+    float const pdf_position = 1.0f / (kPi * sqr(scene.radius));
+    if (!(pdf_direction > 0.0f) || !std::isfinite(pdf_direction) || !std::isfinite(pdf_position) ||
+        radiance.is_black())
+        return result;
+    Vec2 const disk = square_to_disk(u_position);
+    EmissionSample& s = result.emplace();
+    s.ray.o = scene.centre + scene.radius * (frame_from_z(to_light).from_local({disk.x, disk.y, 1.0f}));
+    s.ray.d = -to_light;
+    s.radiance = radiance;
+    s.pdf_position = pdf_position;
+    s.pdf_direction = pdf_direction;
+    s.delta_direction = delta;
+    return result;
+}
+
+float disk_density(BoundingSphere const& scene, Vec3 p, Vec3 w) {
+    // What lies in the scene may lie on its sphere: a little more than rounding is let in.
+    Vec3 const across = cross(p - scene.centre, w);
+    float const radius2 = sqr(scene.radius);
+    float const pdf = 1.0f / (kPi * radius2);
+    return std::isfinite(pdf) && length_squared(across) <= radius2 * (1 + 0x1p-10f) ? pdf : 0.0f;
+}
+
+LightBounds bounds_at_point(LightData const& d, float intensity) {
+    LightBounds b;
+    b.box.add(d.position);
+    b.intensity = intensity;
+    return b;
+}
+LightBounds bounds_at_point(LightData const& d, float intensity, Vec3 axis, float theta_o, float theta_e) {
+    LightBounds b = bounds_at_point(d, intensity);
+    b.axis = axis;
+    b.cos_normals = std::cos(std::min(theta_o, kPi));
+    b.cos_emission = std::cos(std::min(std::max(theta_e, kSharpEdge), kPi));
+    return b;
+}
+
+float volume_scale(Transform const& to_world) {
+    Vec3 const x = to_world.vector({1, 0, 0});
+    Vec3 const y = to_world.vector({0, 1, 0});
+    Vec3 const z = to_world.vector({0, 0, 1});
+    float const scale2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0f;
+    auto const small = [&](float v) { return std::abs(v) <= 1e-6f * scale2; };
+    bool const similar = small(dot(x, y)) && small(dot(y, z)) && small(dot(z, x)) &&
+                         small(dot(x, x) - scale2) && small(dot(y, y) - scale2) && small(dot(z, z) - scale2);
+    return similar ? 0.0f : abs_dot(x, cross_accurate(y, z));
+}
+
 bool is_infinite(Light const& light) {
     return match(light.kind, []<class K>(K const&) { return EnvironmentModel<K>; });
 }
@@ -68,6 +131,23 @@ float environment_pdf(Light const& light, LightData const& d, Vec3 p, Vec3 w) {
         else
             return 0.0f;
     });
+}
+
+std::optional<EmissionSample> sample_emission(Light const& light, LightData const& d, Assets const& assets,
+                                              BoundingSphere const& scene, Vec2 u_position, Vec2 u_direction,
+                                              Wavelengths const& lambda) {
+    return match(light.kind, [&](auto const& kind) {
+        return sample_emission(kind, d, assets, scene, u_position, u_direction, lambda);
+    });
+}
+
+EmissionDensity emission_density(Light const& light, LightData const& d, BoundingSphere const& scene, Vec3 p,
+                                 Vec3 w) {
+    return match(light.kind, [&](auto const& kind) { return emission_density(kind, d, scene, p, w); });
+}
+
+std::optional<LightBounds> light_bounds(Light const& light, LightData const& d, Assets const& assets) {
+    return match(light.kind, [&](auto const& kind) { return light_bounds(kind, d, assets); });
 }
 
 float power(Light const& light, LightData const& d, Assets const& assets, BoundingSphere const& scene) {

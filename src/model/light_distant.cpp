@@ -27,4 +27,19 @@ float power(DistantLight const&, LightData const& d, Assets const&, BoundingSphe
     return d.emission.max_value() * (kPi * sqr(scene.radius));
 }
 
+std::optional<EmissionSample> sample_emission(DistantLight const&, LightData const& d, Assets const&,
+                                              BoundingSphere const& scene, Vec2 u_position, Vec2,
+                                              Wavelengths const& lambda) {
+    return emission_from_infinity(scene, d.direction, d.emission.sample(lambda), 1.0f, true, u_position);
+}
+
+EmissionDensity emission_density(DistantLight const&, LightData const& d, BoundingSphere const& scene, Vec3 p,
+                                 Vec3) {
+    return {disk_density(scene, p, d.direction), 0.0f};
+}
+
+std::optional<LightBounds> light_bounds(DistantLight const&, LightData const&, Assets const&) {
+    return std::nullopt;
+}
+
 }  // namespace nephroid

@@ -32,24 +32,6 @@ float solid_angle_element(EnvironmentMapping mapping, Vec3 w) {
     if (mapping == EnvironmentMapping::EqualArea) return 4.0f * kPi;
     return 2.0f * kPi * kPi * std::sqrt(sqr(w.x) + sqr(w.y));
 }
-/// How a density over directions of light space changes on the way to the world: d(local) / d(world) = |M w|^3 / |det M|,
-/// which is 1 for rotations and uniform scales.
-float direction_density(LightData const& d, Vec3 local) {
-    if (d.volume_scale == 0.0f) return 1.0f;
-    float const stretch = length(d.to_world.vector(local));
-    return stretch * stretch * stretch / d.volume_scale;
-}
-/// |det M|, or 0 where M maps balls to balls and so keeps densities over directions.
-float volume_scale(Transform const& to_world) {
-    Vec3 const x = to_world.vector({1, 0, 0});
-    Vec3 const y = to_world.vector({0, 1, 0});
-    Vec3 const z = to_world.vector({0, 0, 1});
-    float const scale2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0f;
-    auto const small = [&](float v) { return std::abs(v) <= 1e-6f * scale2; };
-    bool const similar = small(dot(x, y)) && small(dot(y, z)) && small(dot(z, x)) &&
-                         small(dot(x, x) - scale2) && small(dot(y, y) - scale2) && small(dot(z, z) - scale2);
-    return similar ? 0.0f : abs_dot(x, cross_accurate(y, z));
-}
 Wrap environment_wrap(EnvironmentMapping mapping) {
     return mapping == EnvironmentMapping::EqualArea ? Wrap::OctahedralSphere : Wrap::Repeat;
 }
@@ -173,13 +155,13 @@ std::optional<LightSample> sample_light(InfiniteLight const& l, LightData const&
 Spectrum environment_radiance(InfiniteLight const& l, LightData const& d, Assets const& assets, Vec3, Vec3 w,
                               Wavelengths const& lambda) {
     if (!l.image.valid()) return d.emission.sample(lambda);
-    Vec2 const st = direction_to_square(d.mapping, normalize(d.to_world.vector_inverse(w)));
+    Vec2 const st = direction_to_square(d.mapping, local_direction(d, w));
     return image_radiance(d, environment_rgb(d.mapping, assets.pyramid(l.image), st), lambda);
 }
 
 float environment_pdf(InfiniteLight const& l, LightData const& d, Vec3, Vec3 w) {
     if (!l.image.valid()) return kUniformSpherePdf;
-    Vec3 const local = normalize(d.to_world.vector_inverse(w));
+    Vec3 const local = local_direction(d, w);
     Vec2 const st = direction_to_square(d.mapping, local);
     float const element = solid_angle_element(d.mapping, local);
     return element > 0.0f ? d.table->distribution.pdf(st) / element * direction_density(d, local) : 0.0f;
@@ -193,6 +175,25 @@ float power(InfiniteLight const& l, LightData const& d, Assets const&, BoundingS
         if (d.mapping == EnvironmentMapping::LatLong) radiance *= kPiOver2;
     }
     return 4.0f * kPi * (kPi * sqr(scene.radius)) * radiance;
+}
+
+std::optional<EmissionSample> sample_emission(InfiniteLight const& l, LightData const& d,
+                                              Assets const& assets, BoundingSphere const& scene,
+                                              Vec2 u_position, Vec2 u_direction, Wavelengths const& lambda) {
+    auto const from = sample_light(l, d, assets, scene.centre, u_direction, lambda);
+    if (!from) return std::nullopt;
+    // The density is asked for again, so that who follows the ray backwards gets the same one also at texels' edges.
+    return emission_from_infinity(scene, from->wi, from->radiance,
+                                  environment_pdf(l, d, scene.centre, from->wi), false, u_position);
+}
+
+EmissionDensity emission_density(InfiniteLight const& l, LightData const& d, BoundingSphere const& scene,
+                                 Vec3 p, Vec3 w) {
+    return {disk_density(scene, p, w), environment_pdf(l, d, scene.centre, -w)};
+}
+
+std::optional<LightBounds> light_bounds(InfiniteLight const&, LightData const&, Assets const&) {
+    return std::nullopt;
 }
 
 }  // namespace nephroid

@@ -4,6 +4,7 @@
 
 #include "model/light.h"
 
+#include <algorithm>
 #include <concepts>
 
 namespace nephroid {
@@ -13,7 +14,13 @@ namespace nephroid {
     LightData prepare(K const& kind, Light const& light, Assets& assets);                                    \
     std::optional<LightSample> sample_light(K const& kind, LightData const& d, Assets const& assets, Vec3 p, \
                                             Vec2 u, Wavelengths const& lambda);                              \
-    float power(K const& kind, LightData const& d, Assets const& assets, BoundingSphere const& scene);
+    float power(K const& kind, LightData const& d, Assets const& assets, BoundingSphere const& scene);       \
+    std::optional<EmissionSample> sample_emission(K const& kind, LightData const& d, Assets const& assets,   \
+                                                  BoundingSphere const& scene, Vec2 u_position,              \
+                                                  Vec2 u_direction, Wavelengths const& lambda);              \
+    EmissionDensity emission_density(K const& kind, LightData const& d, BoundingSphere const& scene, Vec3 p, \
+                                     Vec3 w);                                                                \
+    std::optional<LightBounds> light_bounds(K const& kind, LightData const& d, Assets const& assets);
 
 /// Those that are seen where a ray meets nothing (is_infinite).
 #define NEPHROID_ENVIRONMENT(K)                                                                            \
@@ -25,6 +32,9 @@ namespace nephroid {
 NEPHROID_LIGHT(PointLight)
 NEPHROID_LIGHT(SpotLight)
 NEPHROID_LIGHT(DistantLight)
+NEPHROID_LIGHT(GoniometricLight)
+NEPHROID_LIGHT(ProjectionLight)
+NEPHROID_LIGHT(MeasuredLight)
 NEPHROID_ENVIRONMENT(InfiniteLight)
 #undef NEPHROID_LIGHT
 #undef NEPHROID_ENVIRONMENT
@@ -35,6 +45,9 @@ concept LightModel = requires(K const& k, Light const& light, LightData const& d
     { prepare(k, light, assets) } -> std::same_as<LightData>;
     { sample_light(k, d, assets, p, u, lambda) } -> std::same_as<std::optional<LightSample>>;
     { power(k, d, assets, scene) } -> std::same_as<float>;
+    { sample_emission(k, d, assets, scene, u, u, lambda) } -> std::same_as<std::optional<EmissionSample>>;
+    { emission_density(k, d, scene, p, p) } -> std::same_as<EmissionDensity>;
+    { light_bounds(k, d, assets) } -> std::same_as<std::optional<LightBounds>>;
 };
 template <class K>
 concept EnvironmentModel = LightModel<K> && requires(K const& k, LightData const& d, Assets const& assets,
@@ -45,6 +58,9 @@ concept EnvironmentModel = LightModel<K> && requires(K const& k, LightData const
 static_assert(LightModel<PointLight>);
 static_assert(LightModel<SpotLight>);
 static_assert(LightModel<DistantLight>);
+static_assert(LightModel<GoniometricLight>);
+static_assert(LightModel<ProjectionLight>);
+static_assert(LightModel<MeasuredLight>);
 static_assert(EnvironmentModel<InfiniteLight>);
 
 // --- what kinds share -------------------------------------------------------------------------------------------------
@@ -56,5 +72,45 @@ inline Vec3 axis(Transform const& to_world, Vec3 from, Vec3 to) {
 }
 /// What arrives at p from a point that sends `intensity` there.
 std::optional<LightSample> sample_from_point(LightData const& d, Vec3 p, Spectrum intensity);
+
+/// A ray from a point along w (world, unit), drawn with density `pdf`.
+std::optional<EmissionSample> emission_from_point(LightData const& d, Vec3 w, Spectrum intensity, float pdf);
+/// A ray through the scene's disk from a light at infinity in direction `to_light`, drawn with `pdf_direction`.
+std::optional<EmissionSample> emission_from_infinity(BoundingSphere const& scene, Vec3 to_light,
+                                                     Spectrum radiance, float pdf_direction, bool delta,
+                                                     Vec2 u_position);
+/// By area, of the ray through p along w; 0 where it passes the disk by.
+float disk_density(BoundingSphere const& scene, Vec3 p, Vec3 w);
+
+/// Bounds of a light at a point whose greatest intensity is `intensity`: all around, or within theta_o and then theta_e.
+LightBounds bounds_at_point(LightData const& d, float intensity);
+/// theta_e of light that ends sharply: above 0, or who asks whether an angle is below it would see nothing.
+inline constexpr float kSharpEdge = 0.01f;
+LightBounds bounds_at_point(LightData const& d, float intensity, Vec3 axis, float theta_o, float theta_e);
+
+/// |det M|, or 0 where M maps balls to balls and so keeps densities over directions.
+float volume_scale(Transform const& to_world);
+/// How a density over directions of light space changes on the way to the world: d(local) / d(world) = |M w|^3 / |det M|,
+/// which is 1 for rotations and uniform scales.
+inline float direction_density(LightData const& d, Vec3 local) {
+    if (d.volume_scale == 0.0f) return 1.0f;
+    float const stretch = length(d.to_world.vector(local));
+    return stretch * stretch * stretch / d.volume_scale;
+}
+/// A direction of the world, in light space.
+inline Vec3 local_direction(LightData const& d, Vec3 w) { return normalize(d.to_world.vector_inverse(w)); }
+
+/// A function of the texels of a picture over the unit square, (0, 0) the upper left corner of the first: the same rounding
+/// as in Distribution2D, so that a texel is lit where its density is above 0.
+struct Texel {
+    int x = 0, y = 0;
+};
+inline Texel nearest_texel(Image const& image, Vec2 st) {
+    auto const cell = [](float t, int n) {
+        return t > 0.0f ? static_cast<int>(std::min(t * static_cast<float>(n), static_cast<float>(n - 1)))
+                        : 0;
+    };
+    return {cell(st.x, image.width()), cell(st.y, image.height())};
+}
 
 }  // namespace nephroid

@@ -1,4 +1,5 @@
 #include "lights.h"
+#include "ies.h"
 #include "shown.h"
 
 #include "spectra.h"
@@ -86,11 +87,54 @@ InfiniteLight infinite(Params& p) {
     return l;
 }
 
-/// The light of a picture or a measured lamp, without either.
-PointLight stand_in(Params& p, std::string const& type) {
-    p.note("\"" + shown(type) + "\" is not rendered yet: a point light stands in");
-    p.find("filename"), p.find("fov");
-    return point(p);
+/// The file that a light cannot do without.
+std::string needed_file(Params& p, char const* what) {
+    auto name = p.string("filename", "");
+    if (name.empty()) p.fail(std::string("it needs a \"filename\" of ") + what);
+    return name;
+}
+
+bool is_ies(std::string const& name) {
+    auto extension = std::filesystem::path(name).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".ies";
+}
+
+LightKind measured(Params& p, std::string const& name) {
+    auto& context = p.context();
+    auto const where = p.find("filename", {ParamType::String})->where;
+    auto const path = context.resolve(where, name);
+    auto file = parse_ies(context.read_named(where, "IES file", path), path.string());
+    for (auto const& note : file.notes) context.note(where, note);
+    MeasuredLight l;
+    l.intensity = emission(p, "I");
+    l.table = std::move(file.table);
+    l.scale = p.number("scale", 1);
+    l.power = output(p, "power");
+    return l;
+}
+
+LightKind goniometric(Params& p) {
+    auto const name = needed_file(p, "a square equal-area picture, or an IES file");
+    if (is_ies(name)) return measured(p, name);
+    GoniometricLight l;
+    l.intensity = emission(p, "I");
+    l.image = image_of(p);
+    l.scale = p.number("scale", 1);
+    l.power = output(p, "power");
+    return l;
+}
+
+ProjectionLight projection(Params& p) {
+    needed_file(p, "a picture");
+    ProjectionLight l;
+    l.image = image_of(p);
+    float const fov = p.number("fov", 90);
+    if (!(fov > 0 && fov < 180)) p.fail("\"fov\" must be above 0 and below 180 degrees");
+    l.fov = radians(fov);
+    l.scale = p.number("scale", 1);
+    l.power = output(p, "power");
+    return l;
 }
 
 }  // namespace
@@ -100,7 +144,8 @@ LightKind make_light(std::string const& type, Params& p) {
     if (type == "spot") return spot(p);
     if (type == "distant") return distant(p);
     if (type == "infinite") return infinite(p);
-    if (type == "goniometric" || type == "projection") return stand_in(p, type);
+    if (type == "goniometric") return goniometric(p);
+    if (type == "projection") return projection(p);
     if (type == "exinfinite") p.fail("\"exinfinite\" is of pbrt-v3; in pbrt-v4 it is \"infinite\"");
     p.fail("unknown light" +
            did_you_mean(type, {"point", "spot", "distant", "infinite", "goniometric", "projection"}));

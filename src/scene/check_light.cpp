@@ -15,11 +15,31 @@ void check_direction(Check const& c, Vec3 from, Vec3 to) {
     c.require(from != to, "the light's points `from` and `to` are the same: give it a direction");
 }
 
+void check_angles(Check const& c, std::vector<float> const& angles, float last, char const* what) {
+    auto const say = [&](char const* wrong) { return std::string("the measured light's ") + what + wrong; };
+    c.require(angles.size() >= 2, say(" angles must be at least two").c_str());
+    c.require(angles.front() >= 0 && angles.back() <= last * 1.000001f,
+              say(" angles must be within their range").c_str());
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        c.require(angles[i] > angles[i - 1], say(" angles must increase").c_str());
+}
+void check_table(Check const& c, IntensityTable const& t) {
+    check_angles(c, t.vertical, kPi, "vertical");
+    check_angles(c, t.horizontal, kTwoPi, "horizontal");
+    c.require(t.horizontal.front() == 0 && t.horizontal.back() >= kTwoPi * 0.999999f,
+              "the measured light's horizontal angles must go all the way around, from 0 to 360 degrees");
+    c.require(t.candela.size() == t.vertical.size() * t.horizontal.size(),
+              "the measured light must have one intensity for each pair of angles");
+    for (float const cd : t.candela)
+        c.require(cd >= 0, "the measured light has a negative intensity: replace it by 0 or more");
+}
+
 }  // namespace
 
 void check_light(Check const& c, Light const& light) {
     check_matrix(c, light.to_world, "the light's transform");
     check_ids(c, light.kind, "the light");
+    check_finite(c, light.kind, "the light");
     match(
         light.kind,
         [&](PointLight const& l) {
@@ -43,12 +63,28 @@ void check_light(Check const& c, Light const& light) {
         [&](InfiniteLight const& l) {
             check_spd(c, l.radiance, "the light's spectrum");
             check_strength(c, l.scale, l.illuminance);
+        },
+        [&](GoniometricLight const& l) {
+            check_spd(c, l.intensity, "the light's spectrum");
+            check_strength(c, l.scale, l.power);
+            c.require(l.image.valid(), "the goniometric light needs a picture of its intensities");
+        },
+        [&](ProjectionLight const& l) {
+            check_strength(c, l.scale, l.power);
+            c.require(l.image.valid(), "the projection light needs a picture");
+            c.require(l.fov > 0 && l.fov < kPi,
+                      "the projection light's fov must be above 0 and below 180 degrees");
+        },
+        [&](MeasuredLight const& l) {
+            check_spd(c, l.intensity, "the light's spectrum");
+            check_strength(c, l.scale, l.power);
+            check_table(c, l.table);
         });
-    check_finite(c, light.kind, "the light");
 }
 
 void check_area_light(Check const& c, AreaLight const& light) {
     check_ids(c, light.image, "the light");
+    check_ids(c, light.texture, "the light");
     check_spd(c, light.radiance, "the light's spectrum");
     check_strength(c, light.scale, light.power);
 }

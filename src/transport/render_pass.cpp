@@ -100,7 +100,12 @@ std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange pass
                                                : Wavelengths::spectral(sampler.next_1d());
                 CameraRay const camera = job.camera().ray(
                     Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
-                PathContext c{job, job.world(), lambda, sampler, stats, hemisphere_of(settings.integrator),
+                PathContext c{job,
+                              job.world(),
+                              lambda,
+                              sampler,
+                              stats,
+                              hemisphere_of(settings.integrator),
                               lights_of(settings.integrator)};
                 AovSample aov;
                 Spectrum const radiance_seen = match(settings.integrator, [&](auto const& integrator) {

@@ -43,16 +43,19 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
     for (int i = 0; i < kMaxInterfaces; ++i) {
         if (!c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit)) {
             for (LightId const light : c.world.infinite_lights()) {
-                float const pdf = walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
+                float const pdf =
+                    walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
                 float const w = emission_weight(walk, weight, pdf);
-                if (w > 0.0f) radiance += walk.beta * c.world.environment(light, walk.ray.d, c.lambda) * w;
+                if (w > 0.0f)
+                    radiance += walk.beta * c.world.environment(light, walk.from.p, walk.ray.d, c.lambda) * w;
             }
             return false;
         }
         if (hit.emits) {
             Spectrum const emitted = c.world.emitted(hit, -walk.ray.d, c.lambda);
             if (!emitted.is_black()) {
-                float const pdf = walk.specular ? 0.0f : c.world.light_pdf(hit, walk.from, c.lights, walk.ray.d);
+                float const pdf =
+                    walk.specular ? 0.0f : c.world.light_pdf(hit, walk.from, c.lights, walk.ray.d);
                 radiance += walk.beta * emitted * emission_weight(walk, weight, pdf);
             }
         }
@@ -83,15 +86,15 @@ bool prepare(PathContext& c, Walk const& walk, Vertex& v) {
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     v.frame = frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
-    v.receiver = {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, spreads_through(v.bsdf)};
     return true;
 }
 
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
-    double const u_choose = c.sampler.next_1d_fine();
+    double const u_choose = c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
+    c.sampler.at(dimension::of(walk.vertex, dimension::kLight));
     Vec2 const u = c.sampler.next_2d();
-    auto const light = c.world.sample_light(v.receiver, c.lights, u_choose, u, c.lambda);
+    auto const light = c.world.sample_light(receiver_of(v), c.lights, u_choose, u, c.lambda);
     if (!light || light->radiance.is_black()) return {};
     Vec3 const wi_local = v.frame.to_local(light->wi);
     Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
@@ -120,7 +123,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.pdf;
-    walk.from = v.receiver;
+    walk.from = receiver_of(v);
     walk.cone += v.hit.t;
     walk.ray = v.hit.spawn(normalize(v.frame.from_local(s.wi)));
     ++walk.vertex;

@@ -67,10 +67,14 @@ struct Vertex {
     SurfaceHit hit;
     MaterialId material;     // of the hit; a mix has been resolved
     Frame frame;             // shading
-    Receiver receiver;       // of light, as `bsdf` scatters it
     Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
     Bsdf bsdf;
 };
+
+/// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
+inline Receiver receiver_of(Vertex const& v) {
+    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, spreads_through(v.bsdf)};
+}
 
 /// How emission that a ray runs into is weighed against light sampling at the ray's origin.
 enum class EmissionWeight : std::uint8_t {

@@ -1,9 +1,8 @@
 // compile(Scene) -> World: validate, bake, flatten, build, and gather the lights.
-#include "light_table.h"
+#include "light_gather.h"
 #include "ray_caster.h"
 #include "records.h"
 #include "scene/match.h"
-#include "spectrum/color.h"
 #include "world/world.h"
 #include "world_parts.h"
 
@@ -110,32 +109,6 @@ bool is_invisible(Scene const& scene, Assets const& assets, Object const& o) {
     return !o.light && passage_of(scene, assets, o) == Passage::Interface;
 }
 
-/// Emission beyond floats would be black or NaN somewhere on its way.
-void check_emission(Scene const& scene, SourceLocation where, RuntimeSpectrum const& emission) {
-    if (!std::isfinite(emission.max_value()))
-        scene.fail(where, "the light emits more than floats can hold; make its scale smaller");
-}
-/// How often a light is chosen. Power is a product with areas, and may leave the range of floats where emission does not.
-float weight_of(float power) { return power > 0.0f ? std::fmin(power, 1e30f) : 0.0f; }
-
-/// Folds what sampling a triangle needs, so that a sample does not have to gather it from the mesh. Nothing is done where the
-/// emission is a picture, or where vertex normals turn the emitting side within the triangle.
-void flatten_triangle(ObjectRecord const& record, InstanceRecord const* where, LightEntry& e) {
-    if (record.object->light->image.valid()) return;
-    // The corners, by the numbers that lead there (sampling/warp.h, square_to_triangle).
-    ShapeSample const a = sample_part(record, where, e.part, {0, 0});
-    ShapeSample const b = sample_part(record, where, e.part, {1, 0});
-    ShapeSample const c = sample_part(record, where, e.part, {0, 1});
-    if (a.n != b.n || a.n != c.n || !(a.pdf_area > 0.0f) || !std::isfinite(a.pdf_area)) return;
-    e.area_pdf = a.pdf_area;
-    e.corner = a.p;
-    e.edge1 = b.p - a.p;
-    e.edge2 = c.p - a.p;
-    e.normal = a.n;
-    e.p_error = max(a.p_error, max(b.p_error, c.p_error)) +
-                gamma_bound(5) * (abs(e.corner) + abs(e.edge1) + abs(e.edge2));
-}
-
 struct Builder {
     Scene& scene;
     Assets& assets;
@@ -165,12 +138,11 @@ struct Builder {
                 r.passage = passage_of(scene, assets, o);
                 parts.partly = parts.partly || r.passage == Passage::Partly;
                 r.place = place_of(scene, o);
-                r.textured = (o.material.valid() && assets.data(o.material).textured) ||
-                             (o.light && o.light->image.valid());
+                r.textured = o.material.valid() && assets.data(o.material).textured;
                 if (o.light) {
                     r.first_light = lights_of_group;
                     lights_of_group += part_count(r);
-                    r.emitter = add_emitter(r);
+                    r.emitter = add_emitter(scene, assets, lights, r);
                 }
                 ++counts.objects;
                 if (auto const* m = std::get_if<TriangleMesh>(&o.shape)) {
@@ -182,31 +154,6 @@ struct Builder {
             }
             record_count.push_back(static_cast<std::uint32_t>(parts.records.size()) - first_record.back());
         }
-    }
-
-    std::uint32_t add_emitter(ObjectRecord const& r) {
-        AreaLight const& l = *r.object->light;
-        Emitter e;
-        e.light = &l;
-        // Lumens of a surface of luminance 1: pi * area * sides (* the picture's mean luminance).
-        double area = 0;
-        for (std::uint32_t i = 0; i < part_count(r); ++i)
-            area += static_cast<double>(part_area(r, nullptr, i));
-        double unit = static_cast<double>(kPi) * area * (l.two_sided ? 2 : 1);
-        if (l.image.valid()) {
-            Pyramid const& picture = assets.pyramid(l.image);
-            Vec3 const mean = picture.bilerp_rgb(picture.levels() - 1, {0.5f, 0.5f}, Wrap::Clamp);
-            e.image_mean = std::fmax(0.0f, luminance(mean));
-            unit *= static_cast<double>(e.image_mean);
-        }
-        try {
-            e.radiance = emission_spectrum(assets, l.radiance, l.scale, l.power, unit);
-        } catch (Error const& error) {
-            throw Error(error.kind(), scene.locate(l.where) + ": " + error.what());
-        }
-        check_emission(scene, l.where, e.radiance);
-        lights.emitters.push_back(e);
-        return static_cast<std::uint32_t>(lights.emitters.size() - 1);
     }
 
     void build_groups() {
@@ -239,55 +186,6 @@ struct Builder {
             flatten(i.group, m);
         }
     }
-
-    void add_appearance(std::uint32_t first, std::uint32_t count, std::uint32_t instance,
-                        std::vector<float>& weights) {
-        InstanceRecord const* where = instance == kNoInstance ? nullptr : &parts.instances[instance];
-        for (std::uint32_t r = first; r < first + count; ++r) {
-            ObjectRecord const& record = parts.records[r];
-            if (!record.emits()) continue;
-            Emitter const& e = lights.emitters[record.emitter];
-            float const level =
-                e.radiance.max_value() * e.image_mean * kPi * (e.light->two_sided ? 2.0f : 1.0f);
-            std::uint64_t flat = 0;
-            for (std::uint32_t part = 0; part < part_count(record); ++part) {
-                float const area = part_area(record, where, part);
-                LightEntry entry{.record = r, .part = part, .instance = instance};
-                if (std::holds_alternative<TriangleMesh>(record.object->shape))
-                    flatten_triangle(record, where, entry);
-                lights.entries.push_back(entry);
-                bool const usable = area > 0.0f && std::isfinite(area);
-                if (!usable) ++flat;
-                weights.push_back(usable ? weight_of(area * level) : 0.0f);
-            }
-            if (flat > 0)
-                scene.note(
-                    record.object->where,
-                    std::to_string(flat) + " light-emitting primitives have no area and were left out");
-        }
-    }
-
-    void gather_lights(BoundingSphere const& sphere) {
-        std::vector<float> weights;
-        add_appearance(first_record[0], record_count[0], kNoInstance, weights);
-        for (std::uint32_t i = 0; i < parts.instances.size(); ++i) {
-            InstanceRecord& instance = parts.instances[i];
-            instance.first_light = static_cast<std::uint32_t>(lights.entries.size());
-            add_appearance(instance.first_record, parts.count_from(instance.first_record), i, weights);
-        }
-        for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-            Light const& light = scene.lights[i];
-            lights.data.push_back(prepare(light, assets));
-            check_emission(scene, light.where, lights.data.back().emission);
-            if (is_infinite(light)) lights.infinite.push_back(LightId{i});
-            lights.entry_of_light.push_back(static_cast<std::uint32_t>(lights.entries.size()));
-            lights.entries.push_back({.record = kNoInstance, .part = i});
-            weights.push_back(weight_of(power(light, lights.data.back(), assets, sphere)));
-        }
-        lights.choice = AliasTable(weights);
-        counts.lights = lights.entries.size();
-        counts.infinite_lights = lights.infinite.size();
-    }
 };
 
 }  // namespace
@@ -314,7 +212,9 @@ World compile(Scene scene_in) {
     w.bounds_ = w.caster_->bounds();
     w.parts_->first_record = b.first_record;
     w.parts_->record_count = b.record_count;
-    b.gather_lights(bounding_sphere(w.bounds_));
+    gather_lights(scene, *w.assets_, *w.parts_, *w.lights_, bounding_sphere(w.bounds_));
+    w.counts_.lights = w.lights_->entries.size();
+    w.counts_.infinite_lights = w.lights_->infinite.size();
     return w;
 }
 

@@ -128,6 +128,11 @@ std::uint64_t pixels_of(ImageFile const& image) {
     return std::min(static_cast<std::uint64_t>(width * height), times(file, kMostPixelsPerByte));
 }
 
+/// A cell for each pair of angles, of which none is further from the next than 2.5 degrees (model/light_measured.cpp).
+std::uint64_t measured_bytes(IntensityTable const& t) {
+    return times(times(t.vertical.size() + 72, t.horizontal.size() + 144), kPixelOfSky);
+}
+
 std::uint64_t picture_bytes(Scene const& scene) {
     std::uint64_t bytes = 0;
     std::uint64_t largest = 0;  // files are read one at a time, and lie in memory while they are decoded
@@ -138,10 +143,16 @@ std::uint64_t picture_bytes(Scene const& scene) {
         bytes = plus(bytes, times(pixels_of(image), kPixel));
     }
     bytes = plus(bytes, largest);
+    auto const by_picture = [&](ImageId image) {
+        return image.value < scene.images.size() ? times(pixels_of(scene[image]), kPixelOfSky) : 0;
+    };
     for (Light const& light : scene.lights)
-        if (auto const* sky = std::get_if<InfiniteLight>(&light.kind))
-            if (sky->image.value < scene.images.size())
-                bytes = plus(bytes, times(pixels_of(scene[sky->image]), kPixelOfSky));
+        bytes = plus(bytes, match(
+                                light.kind, [&](InfiniteLight const& l) { return by_picture(l.image); },
+                                [&](GoniometricLight const& l) { return by_picture(l.image); },
+                                [&](ProjectionLight const& l) { return by_picture(l.image); },
+                                [](MeasuredLight const& l) { return measured_bytes(l.table); },
+                                [](auto const&) { return std::uint64_t{0}; }));
     return bytes;
 }
 

@@ -10,15 +10,6 @@
 
 namespace nephroid {
 
-std::size_t LightTable::bytes() const {
-    std::size_t n = emitters.size() * sizeof(Emitter) + data.size() * sizeof(LightData) +
-                    entries.size() * sizeof(LightEntry) + entry_of_light.size() * sizeof(std::uint32_t) +
-                    choice.bytes();
-    for (LightData const& d : data)
-        if (d.table) n += d.table->distribution.bytes();
-    return n;
-}
-
 World::World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -129,100 +120,6 @@ float World::passing_share(Ray ray, float t_max, RayStats& stats) const {
         if (std::isfinite(t_max)) ray.d = end - ray.o;
     }
     return 0.0f;
-}
-
-Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {
-    if (!hit.emits) return {};
-    return emitted(lights_->emitters[parts_->records[hit.record].emitter], hit.s.ng, hit.s.uv, w, lambda);
-}
-
-Spectrum World::emitted(Emitter const& e, Vec3 n, Vec2 uv, Vec3 w, Wavelengths const& lambda) const {
-    if (!e.light->two_sided && dot(n, w) <= 0.0f) return {};
-    Spectrum const radiance = e.radiance.sample(lambda);
-    if (!e.light->image.valid()) return radiance;
-    Vec3 const rgb = assets_->pyramid(e.light->image).bilerp_rgb(0, {uv.x, 1.0f - uv.y}, Wrap::Clamp);
-    return radiance * rgb_to_spectrum(max(rgb, Vec3{0.0f}), SpectrumRole::Unbounded, lambda);
-}
-
-Spectrum World::environment(Vec3 w, Wavelengths const& lambda) const {
-    Spectrum sum;
-    for (LightId const id : lights_->infinite) sum += environment(id, w, lambda);
-    return sum;
-}
-std::vector<LightId> const& World::infinite_lights() const { return lights_->infinite; }
-Spectrum World::environment(LightId id, Vec3 w, Wavelengths const& lambda) const {
-    return environment_radiance((*scene_)[id], lights_->data[id.value], *assets_, {0, 0, 0}, w, lambda);
-}
-
-std::optional<LightSample> World::sample_light(Receiver const& to, LightSampling, double u_choose, Vec2 u,
-                                               Wavelengths const& lambda) const {
-    Vec3 const p = to.p;
-    if (lights_->choice.empty()) return std::nullopt;
-    auto const chosen = lights_->choice.sample(u_choose);
-    LightEntry const& entry = lights_->entries[chosen.index];
-    return entry.record == kNoInstance
-               ? sample_light_without_surface(LightId{entry.part}, chosen.pmf, p, u, lambda)
-               : sample_area_light(entry, chosen.pmf, p, u, lambda);
-}
-
-std::optional<LightSample> World::sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
-                                                               Wavelengths const& lambda) const {
-    auto s = nephroid::sample_light((*scene_)[id], lights_->data[id.value], *assets_, p, u, lambda);
-    if (s) s->pdf *= pmf;
-    return s;
-}
-
-std::optional<LightSample> World::sample_area_light(LightEntry const& entry, float pmf, Vec3 p, Vec2 u,
-                                                    Wavelengths const& lambda) const {
-    std::optional<LightSample> result;
-    Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
-    // A point uniform by area …
-    ShapeSample point;
-    if (entry.area_pdf > 0.0f) {
-        Vec2 const b = square_to_triangle(u);
-        point.p = entry.corner + b.x * entry.edge1 + b.y * entry.edge2;
-        point.p_error = entry.p_error;
-        point.n = entry.normal;
-        point.pdf_area = entry.area_pdf;
-    } else {
-        point = sample_part(parts_->records[entry.record],
-                            entry.instance == kNoInstance ? nullptr : &parts_->instances[entry.instance],
-                            entry.part, u);
-    }
-    // … its density turned into solid angle: p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
-    Vec3 const to_light = point.p - p;
-    float const r2 = length_squared(to_light);
-    if (!(r2 > 0.0f)) return result;
-    Vec3 const wi = to_light * (1.0f / std::sqrt(r2));
-    float const cos_light = abs_dot(point.n, wi);
-    float const pdf = pmf * point.pdf_area * r2 / cos_light;
-    if (!(cos_light > 0.0f) || !(pdf > 0.0f) || !std::isfinite(pdf)) return result;
-    LightSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = pdf;
-    s.radiance = emitted(emitter, point.n, point.uv, -wi, lambda);
-    s.p = point.p;
-    s.p_error = point.p_error;
-    s.n = point.n;
-    return result;
-}
-
-float World::light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling, Vec3 w) const {
-    ObjectRecord const& record = parts_->records[hit.record];
-    if (!record.emits() || lights_->choice.empty()) return 0.0f;
-    InstanceRecord const* instance = hit.instance == kNoInstance ? nullptr : &parts_->instances[hit.instance];
-    std::uint32_t const entry = (instance ? instance->first_light : 0) + record.first_light + hit.part;
-    float const cos_light = abs_dot(hit.s.ng, w);
-    if (!(cos_light > 0.0f)) return 0.0f;
-    float const known = lights_->entries[entry].area_pdf;
-    float const area_pdf = known > 0.0f ? known : part_pdf(record, instance, hit.part, hit.hit_uv, hit.s.ng);
-    return lights_->choice.pmf(entry) * area_pdf * distance_squared(hit.s.p, to.p) / cos_light;
-}
-
-float World::infinite_light_pdf(LightId id, Receiver const& to, LightSampling, Vec3 w) const {
-    if (lights_->choice.empty()) return 0.0f;
-    return lights_->choice.pmf(lights_->entry_of_light[id.value]) *
-           environment_pdf((*scene_)[id], lights_->data[id.value], to.p, w);
 }
 
 }  // namespace nephroid

@@ -33,7 +33,7 @@ constexpr Reference kReferences[] = {
     {"smallpt", "pbrt4-minus/cornell-box/smallpt.pbrt", 128, nullptr},
     {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 8, "a rough conductor"},
     {"lights-shapes", "references/pbrt-v4/lights-shapes.pbrt", 96, nullptr},
-    {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 8, "the projection light"},
+    {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 64, nullptr},
     {"lights-env", "references/pbrt-v4/lights-env.pbrt", 8, "rough conductors"},
     {"materials", "references/pbrt-v4/materials.pbrt", 8, "rough, coated and transmitting materials"},
     {"textures", "references/pbrt-v4/textures.pbrt", 8, "procedural textures, displacement, normal maps"},

@@ -146,7 +146,7 @@ TEST_CASE("measured metals: the sky's spectrum times Fresnel, as the observer se
         int const n = 4096;
         for (int i = 0; i < n; ++i) {
             auto const lambda = Wavelengths::spectral((static_cast<float>(i) + 0.5f) / n);
-            Spectrum l = world.environment({0, 0, 1}, lambda);
+            Spectrum l = world.environment({}, {0, 0, 1}, lambda);
             for (int j = 0; j < 4; ++j) {
                 auto const nm = static_cast<double>(lambda.lambda(j));
                 l.set(j, l[j] * fresnel_conductor(0.5f, static_cast<float>(interpolate(*eta, nm)),

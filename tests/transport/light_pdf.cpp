@@ -136,7 +136,7 @@ TEST_CASE("light pdf: environment pictures") {
             REQUIRE(sample);
             float const pdf = world.infinite_light_pdf(LightId{0}, {}, {}, sample->wi);
             if (!(std::abs(pdf / sample->pdf - 1) <= 1e-4f)) ++wrong;
-            Spectrum const seen = world.environment(sample->wi, Wavelengths::rgb());
+            Spectrum const seen = world.environment({}, sample->wi, Wavelengths::rgb());
             CHECK(seen[1] == doctest::Approx(sample->radiance[1]).epsilon(1e-3));
         }
         CHECK(wrong <= 10);
@@ -148,7 +148,7 @@ TEST_CASE("light pdf: environment pictures") {
         for (int i = 0; i < n; ++i) {
             Vec3 const w = square_to_uniform_sphere({u.unit(), u.unit()});
             density += static_cast<double>(world.infinite_light_pdf(LightId{0}, {}, {}, w));
-            radiance += static_cast<double>(world.environment(w, Wavelengths::rgb())[1]);
+            radiance += static_cast<double>(world.environment({}, w, Wavelengths::rgb())[1]);
             auto const s1 = world.sample_light({}, {}, u.unit(), {u.unit(), u.unit()}, Wavelengths::rgb());
             sampled += static_cast<double>(s1->radiance[1] / s1->pdf);
         }

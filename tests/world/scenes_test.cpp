@@ -359,7 +359,7 @@ TEST_CASE("an empty scene, and one without lights, are black") {
     CHECK(world.bounds().empty());
     CHECK(world.counts().objects == 0);
     CHECK_FALSE(world.sample_light({}, {}, 0.5f, {0.5f, 0.5f}, Wavelengths::rgb()).has_value());
-    CHECK(world.environment({0, 0, 1}, Wavelengths::rgb()).is_black());
+    CHECK(world.environment({}, {0, 0, 1}, Wavelengths::rgb()).is_black());
     CHECK(brightness(picture(empty)) == 0);
 
     Scene dark = lit_floor();

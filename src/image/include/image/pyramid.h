@@ -33,6 +33,12 @@ class Pyramid {
     /// R, G, B by their names, or the first three channels; gray images give gray.
     [[nodiscard]] Vec3 bilerp_rgb(int level, Vec2 st, Wrap wrap = Wrap::Repeat) const;
 
+    /// The same of one texel, which must lie inside.
+    [[nodiscard]] Vec3 texel_rgb(int level_index, int x, int y) const {
+        Image const& image = level(level_index);
+        return {image.get(x, y, rgb_[0]), image.get(x, y, rgb_[1]), image.get(x, y, rgb_[2])};
+    }
+
     /// dst0 and dst1 are the derivatives of (s, t) along the two axes of the pixel's footprint.
     [[nodiscard]] Vec3 lookup_rgb(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1) const;
     /// One number, as pbrt-v4 takes it: a gray image's value, the average of RGB, or alpha where there is one below 1.

@@ -72,6 +72,16 @@ struct Transform {
     static Vec3 error(Rows const& r, Vec3 p, Vec3 e);
 };
 
+/// How a linear map with columns x, y, z changes densities over directions: |det|, or 0 where it maps balls to balls and so
+/// leaves them alone (to 1e-6). See direction_density.
+float direction_scale(Vec3 x, Vec3 y, Vec3 z);
+/// d(directions before) / d(directions after the map) at a unit direction that the map makes `mapped`: |M w|^3 / |det M|.
+inline float direction_density(float scale, Vec3 mapped) {
+    if (scale == 0.0f) return 1.0f;
+    float const stretch = length(mapped);
+    return stretch * stretch * stretch / scale;
+}
+
 /// Nothing when the matrix is singular, not affine, or not finite in float.
 std::optional<Transform> make_transform(Mat4 const& m);
 

@@ -1,10 +1,13 @@
-// Lights that are not surfaces: what they send to a point, with which density they are sampled, and their power.
+// Lights that are not surfaces: what they send to a point, what rays they send out, with which densities these are sampled,
+// and their power.
 // One file a light; pure functions of the scene's struct and of what was derived from it (LightData).
 #pragma once
 
 #include "math/bounds.h"
 #include "math/frame.h"
+#include "math/ray.h"
 #include "model/assets.h"
+#include "model/light_bounds.h"
 #include "model/texture.h"
 #include "sampling/distribution.h"
 #include "sampling/warp.h"
@@ -13,6 +16,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace nephroid {
 
@@ -34,23 +38,50 @@ struct LightSample {
     Vec3 p{0, 0, 0};        // where it comes from, unless at infinity …
     Vec3 p_error{0, 0, 0};  // … and its rounding bound and surface normal (0 for a point light)
     Vec3 n{0, 0, 0};
+    Vec2 uv{0, 0};  // of the surface, where its emission is textured
 };
 
-/// Importance of an environment picture over its square: luminance (times the map's Jacobian), bilinear footprints included.
+/// A ray of light as it leaves its source, for tracing forward (PBRT 4th ed., 12.2): the estimate of the power that it
+/// carries is radiance * |cos(n, ray.d)| (1 where n = 0) / (pdf_position * pdf_direction).
+struct EmissionSample {
+    Ray ray;                            // d is unit, away from the light
+    Vec3 p_error{0, 0, 0}, n{0, 0, 0};  // of a surface; 0 where there is none
+    Spectrum radiance;                  // W/(m^2 sr); W/sr of a delta position, W/m^2 of a delta direction
+    float pdf_position = 1;             // by area (of the disk across the ray for lights at infinity) …
+    float pdf_direction = 1;            // … and by solid angle; 1 where it is a delta
+    bool delta_position = false, delta_direction = false;
+};
+/// The densities of an EmissionSample. Delta parts give 0.
+struct EmissionDensity {
+    float position = 0, direction = 0;
+};
+
+/// Importance of a picture (or table) over its square: luminance times the map's Jacobian, of an environment with its bilinear
+/// footprints.
 struct EnvironmentTable {
     Distribution2D distribution;
+    std::vector<float> vertical, horizontal;  // measured lights: angles of the edges of rows and columns
+
+    [[nodiscard]] std::size_t bytes() const {
+        return distribution.bytes() + (vertical.size() + horizontal.size()) * sizeof(float);
+    }
 };
 
 /// Derived from a Light when the world is compiled.
 struct LightData {
     RuntimeSpectrum emission;  // scale applied: W/sr, W/m^2/sr …, per nm in spectral mode
     Transform to_world;
-    Vec3 position{0, 0, 0};   // of point and spot, world
+    Vec3 position{0, 0, 0};   // of lights at a point, world
     Vec3 direction{0, 0, 1};  // spot: along the axis; distant: towards the light; world, unit
     float cos_outer = -1, cos_inner = -1;
     EnvironmentMapping mapping = EnvironmentMapping::EqualArea;  // of an infinite image, resolved
     float image_scale = 1;                                       // infinite image: radiance per stored value
-    float volume_scale = 0;  // infinite image: |det to_world| where directions change their density, else 0
+    float volume_scale =
+        0;              // by picture or table: |det to_world| where directions change their density, else 0
+    Vec2 window{1, 1};  // projection: half of its picture's sides at distance 1
+    float flux =
+        0;  // by picture or table, at a point: integral of the relative intensity over directions, sr …
+    float peak = 0;  // … and its greatest value
     std::shared_ptr<EnvironmentTable const> table;
 };
 
@@ -70,6 +101,17 @@ float environment_pdf(Light const& light, LightData const& data, Vec3 p, Vec3 w)
 
 /// Total power, averaged over the visible spectrum (or rgb): good for choosing among lights. W.
 float power(Light const& light, LightData const& data, Assets const& assets, BoundingSphere const& scene);
+
+/// A ray that the light sends out; `scene` bounds everything that can receive it. Lights at infinity send theirs through the
+/// disk across the direction, as wide as the scene. Nothing where no light goes.
+std::optional<EmissionSample> sample_emission(Light const& light, LightData const& data, Assets const& assets,
+                                              BoundingSphere const& scene, Vec2 u_position, Vec2 u_direction,
+                                              Wavelengths const& lambda);
+/// The densities with which sample_emission finds the ray through p (any of its points) that travels along w.
+EmissionDensity emission_density(Light const& light, LightData const& data, BoundingSphere const& scene,
+                                 Vec3 p, Vec3 w);
+/// Nothing for lights at infinity. Its intensity is of the spectrum's largest value, as in power().
+std::optional<LightBounds> light_bounds(Light const& light, LightData const& data, Assets const& assets);
 
 /// Emission with scale and, where given, power or illuminance taken into account: what spd * result emits.
 /// `unit_output`: what a spd of luminance 1 would emit in all (lm or lx), for `target` >= 0.

@@ -4,6 +4,7 @@
 
 #include "math/vec.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -116,6 +117,10 @@ inline float linear_pdf(float x, float a, float b) {
     if (x < 0.0f || x > 1.0f) return 0.0f;
     return a + b == 0.0f ? 1.0f : 2.0f * lerp(x, a, b) / (a + b);
 }
+/// The u of which sample_linear makes x.
+inline float invert_linear(float x, float a, float b) {
+    return a + b == 0.0f ? x : x * (a * (2.0f - x) + b * x) / (a + b);
+}
 /// Tent of half-width r about 0.
 inline float sample_tent(float u, float r) {
     return u < 0.5f ? -r + r * sample_linear(2.0f * u, 0.0f, 1.0f)
@@ -126,6 +131,13 @@ inline float tent_pdf(float x, float r) { return std::abs(x) >= r ? 0.0f : 1.0f 
 /// Bilinear density over the unit square with corner values w[0]=(0,0), w[1]=(1,0), w[2]=(0,1), w[3]=(1,1).
 Vec2 sample_bilinear(Vec2 u, float const w[4]);
 float bilinear_pdf(Vec2 p, float const w[4]);
+/// The u of which sample_bilinear makes p.
+Vec2 invert_bilinear(Vec2 p, float const w[4]);
+/// Weights for drawing by solid angle times the receiver's cosine: a polygon's map (spherical_triangle.h,
+/// spherical_rectangle.h) is given sample_bilinear(u, weights) instead of u, and its density is multiplied by bilinear_pdf (Hart et
+/// al. 2020, "Practical Product Sampling by Fitting and Composing Warps"). `corners`: directions, of any length, in which the
+/// map sees the corners of the square (0,0), (1,0), (0,1), (1,1). The floor keeps every direction possible.
+std::array<float, 4> cosine_weights(std::array<Vec3, 4> const& corners, Vec3 n, bool two_sided);
 
 /// Balance and power heuristics (Veach 1997, 9.2.2) of one sample from each of two strategies.
 inline float balance_heuristic(float f, float g) { return f / (f + g); }

@@ -43,7 +43,34 @@ struct InfiniteLight {
     EnvironmentMapping mapping = EnvironmentMapping::BySize;
     float scale = 1, illuminance = -1;
 };
-using LightKind = std::variant<PointLight, SpotLight, DistantLight, InfiniteLight>;
+/// Intensity by direction from a square equal-area picture (Clarberg's, its centre +y of light space: pbrt-v4 swaps y and
+/// z), nearest texel; of colours their average.
+struct GoniometricLight {
+    Spd intensity = RgbIlluminantSpd{{1, 1, 1}};
+    ImageId image;
+    float scale = 1, power = -1;
+};
+/// A slide projector at the origin: the picture fills the window of `fov` (its shorter side) about +z, +y is up; nearest texel.
+struct ProjectionLight {
+    ImageId image;
+    float fov = kPiOver2;
+    float scale = 1, power = -1;
+};
+/// Luminous intensity (cd) by direction as lamps are measured, bilinear in the angles. Angle 0 of `vertical` is straight
+/// down (-z of light space), beyond its ends it is dark; `horizontal` goes counterclockwise seen from above, from 0 (+x).
+struct IntensityTable {
+    std::vector<float> vertical;    // ascending, within [0, pi], at least two
+    std::vector<float> horizontal;  // ascending, from 0 to 2 pi, which are the same plane
+    std::vector<float> candela;     // vertical.size() of each horizontal angle
+};
+/// A measured lamp (IESNA LM-63): intensity only gives its colour.
+struct MeasuredLight {
+    Spd intensity = RgbIlluminantSpd{{1, 1, 1}};
+    IntensityTable table;
+    float scale = 1, power = -1;
+};
+using LightKind = std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, GoniometricLight,
+                               ProjectionLight, MeasuredLight>;
 
 struct Light {
     LightKind kind;
@@ -54,7 +81,8 @@ struct Light {
 /// Emission of a shape's surface, to the side of its normal or to both.
 struct AreaLight {
     Spd radiance = RgbIlluminantSpd{{1, 1, 1}};
-    ImageId image;  // when valid: radiance over the shape's (u, v), times scale
+    ImageId image;      // when valid: radiance over the shape's (u, v), times scale; or …
+    TextureId texture;  // … a spectrum texture: `radiance` then only names the illuminant
     float scale = 1, power = -1;
     bool two_sided = false;
     SourceLocation where;

@@ -31,7 +31,6 @@ struct RawHit;
 class LightTable;  // all lights, and how one is chosen
 struct LightEntry;
 struct WorldParts;
-struct Emitter;
 struct TraceSums;  // world/floor.h
 
 class World {
@@ -58,12 +57,14 @@ class World {
     // --- emission ---------------------------------------------------------------------------------------------------------
     /// Radiance that the surface itself emits towards w.
     Spectrum emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const;
-    /// Radiance of everything infinitely far away along w.
-    Spectrum environment(Vec3 w, Wavelengths const& lambda) const;
+    /// Radiance of everything infinitely far away, as it arrives at p along w.
+    Spectrum environment(Vec3 p, Vec3 w, Wavelengths const& lambda) const;
     /// … of one infinite light.
-    Spectrum environment(LightId light, Vec3 w, Wavelengths const& lambda) const;
+    Spectrum environment(LightId light, Vec3 p, Vec3 w, Wavelengths const& lambda) const;
     [[nodiscard]] std::vector<LightId> const& infinite_lights() const;
 
+    /// Whether sample_light looks at u_choose at all.
+    [[nodiscard]] bool chooses_lights() const;
     /// One light chosen (u_choose), one direction to it from the receiver (u). The pdf is by solid angle and contains the
     /// probability of the choice; for delta lights it is that probability alone. Nothing when the light cannot reach it.
     std::optional<LightSample> sample_light(Receiver const& to, LightSampling how, double u_choose, Vec2 u,
@@ -75,15 +76,14 @@ class World {
 
   private:
     friend World compile(Scene scene);
-    Spectrum emitted(Emitter const& e, Vec3 n, Vec2 uv, Vec3 w, Wavelengths const& lambda) const;
     friend TraceSums trace_only(World const& world, std::span<RecordedRay const> rays);
     World();
     void complete(RawHit const& raw, SurfaceHit& hit) const;
     float passing_share(Ray ray, float t_max, RayStats& stats) const;
     std::optional<LightSample> sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
                                                             Wavelengths const& lambda) const;
-    std::optional<LightSample> sample_area_light(LightEntry const& entry, float pmf, Vec3 p, Vec2 u,
-                                                 Wavelengths const& lambda) const;
+    std::optional<LightSample> sample_area_light(LightEntry const& entry, float pmf, Receiver const& to,
+                                                 ShapeSampling how, Vec2 u, Wavelengths const& lambda) const;
 
     std::unique_ptr<Scene> scene_;
     std::unique_ptr<Assets> assets_;

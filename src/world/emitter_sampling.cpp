@@ -1,0 +1,256 @@
+#include "emitter_sampling.h"
+
+#include "model/solid_angle.h"
+#include "sampling/warp.h"
+#include "scene/match.h"
+#include "seen_box.h"
+#include "seen_flat.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+/// p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
+float by_solid_angle(float area_pdf, Vec3 from, Vec3 p, Vec3 n, Vec3 w) {
+    float const cosine = abs_dot(n, w);
+    return cosine > 0.0f ? area_pdf * distance_squared(p, from) / cosine : 0.0f;
+}
+/// Sets the direction; false where the point is the receiver itself.
+bool aim(Receiver const& to, LightSample& s) {
+    Vec3 const d = s.p - to.p;
+    float const r2 = length_squared(d);
+    s.wi = d * (1.0f / std::sqrt(r2));
+    return r2 > 0.0f;
+}
+
+// Three ways to be an emitter. Each has
+//   draw_by_area(square, s)     a point by the part's area sampler; returns its density by area
+//   square(p), area_pdf(p, n)   the other way round, for points that were drawn otherwise …
+//   square(hit), area_pdf(hit)  … and for points that a ray has found
+//   has_view, and where that is true draw_seen(u, s), which sets s.pdf, and seen_pdf(p, w): by what the receiver sees
+
+/// Corner and edges in the entry itself.
+struct FlatEmitter {
+    LightEntry const& e;
+    LightPicture const* picture;
+    Receiver const& to;
+    bool has_view;
+
+    FlatEmitter(LightTable const& lights, LightEntry const& entry, Receiver const& receiver,
+                ShapeSampling how)
+        : e(entry),
+          picture(entry.picture == LightEntry::kNone ? nullptr : &lights.pictures[entry.picture]),
+          to(receiver),
+          has_view(how == ShapeSampling::SolidAngle && is_near(entry, receiver)) {}
+
+    void put(Vec2 st, LightSample& s) const {
+        s.p = e.corner + st.x * e.edge1 + st.y * e.edge2;
+        s.p_error = e.p_error;
+        s.n = e.normal;
+        if (picture) s.uv = picture->uv + st.x * picture->duv1 + st.y * picture->duv2;
+    }
+    float draw_by_area(Vec2 square, LightSample& s) const {
+        put(e.shape == LightShape::Triangle ? square_to_triangle(square) : square, s);
+        return e.area_pdf;
+    }
+    [[nodiscard]] Vec2 square(Vec3 p) const {
+        Vec2 const st = coordinates(e, p);
+        return e.shape == LightShape::Triangle ? triangle_to_square(st) : st;
+    }
+    [[nodiscard]] float area_pdf(Vec3, Vec3) const { return e.area_pdf; }
+    [[nodiscard]] Vec2 square(SurfaceHit const& hit) const { return square(hit.s.p); }
+    [[nodiscard]] float area_pdf(SurfaceHit const&) const { return e.area_pdf; }
+    bool draw_seen(Vec2 u, LightSample& s) const {
+        Vec2 st;
+        if (!sample_seen_flat(e, to, u, st, s.pdf)) return false;
+        put(st, s);
+        return aim(to, s);
+    }
+    [[nodiscard]] float seen_pdf(Vec3 p, Vec3) const { return seen_flat_pdf(e, to, p); }
+};
+
+/// What parts share that have no place of their own in the entry.
+struct PartOfRecord {
+    LightEntry const& e;
+    ObjectRecord const& record;
+    InstanceRecord const* instance;
+
+    PartOfRecord(WorldParts const& parts, LightEntry const& entry)
+        : e(entry),
+          record(parts.records[entry.record]),
+          instance(entry.instance == kNoInstance ? nullptr : &parts.instances[entry.instance]) {}
+
+    float draw_by_area(Vec2 square, LightSample& s) const {
+        ShapeSample const point = sample_part(record, instance, e.part, square);
+        s.p = point.p, s.p_error = point.p_error, s.n = point.n, s.uv = point.uv;
+        return point.pdf_area;
+    }
+    [[nodiscard]] float area_pdf(SurfaceHit const& hit) const {
+        return part_pdf(record, instance, e.part, hit.hit_uv, hit.s.ng);
+    }
+};
+
+/// A sphere, cylinder or disk, seen in its own space; directions change their density on the way to the world.
+template <class S>
+struct RoundEmitter : PartOfRecord {
+    S const& shape;
+    LightPlace const& place;
+    Receiver const& to;
+    decltype(seen(std::declval<S const&>(), Vec3{}, EmittingSides::Front)) view;
+    bool has_view = false;
+
+    RoundEmitter(S const& s, LightTable const& lights, WorldParts const& parts, LightEntry const& entry,
+                 Receiver const& receiver, ShapeSampling how)
+        : PartOfRecord(parts, entry), shape(s), place(lights.places[entry.more]), to(receiver) {
+        if (how != ShapeSampling::SolidAngle) return;
+        bool const two_sided = lights.emitters[record.emitter].light->two_sided;
+        view = seen(shape, place.to_shape.point(to.p),
+                    two_sided     ? EmittingSides::Both
+                    : record.flip ? EmittingSides::Back
+                                  : EmittingSides::Front);
+        has_view = view.has_value();
+    }
+
+    using PartOfRecord::area_pdf;
+    [[nodiscard]] Vec2 square(Vec3 p) const {
+        Vec3 const local = place.to_shape.point(p);
+        return invert_area(shape, 0, local, surface(shape, {}, local).uv).value_or(Vec2{0, 0});
+    }
+    [[nodiscard]] float area_pdf(Vec3, Vec3 n) const { return part_pdf(record, instance, e.part, {0, 0}, n); }
+    [[nodiscard]] Vec2 square(SurfaceHit const& hit) const { return square(hit.s.p); }
+    bool draw_seen(Vec2 u, LightSample& s) const {
+        SeenSample local;
+        if (!view->sample(u, local)) return false;
+        s.p = place.to_world.point(local.p);
+        s.p_error = place.to_world.point_error(local.p, local.p_error);
+        // Normals keep their side, whether the map mirrors or not (model/surface.h).
+        Vec3 const n = normalize(place.to_world.area_vector(local.n));
+        s.n = (place.to_world.determinant() < 0.0f) != record.flip ? -n : n;
+        s.uv = local.uv;
+        if (!aim(to, s)) return false;
+        s.pdf = local.pdf * density(s.wi);
+        return true;
+    }
+    [[nodiscard]] float seen_pdf(Vec3 p, Vec3 w) const {
+        return view->pdf(place.to_shape.point(p)) * density(w);
+    }
+
+  private:
+    /// d(directions in the shape's space) / d(directions in the world).
+    [[nodiscard]] float density(Vec3 w) const {
+        if (place.volume_scale == 0.0f) return 1.0f;
+        return direction_density(place.volume_scale,
+                                 place.to_world.vector(normalize(place.to_shape.vector(w))));
+    }
+};
+
+/// Anything else: a bilinear patch, a triangle whose side changes. By area alone.
+struct PartEmitter : PartOfRecord {
+    static constexpr bool has_view = false;
+    using PartOfRecord::area_pdf;
+    using PartOfRecord::PartOfRecord;
+    [[nodiscard]] Vec2 square(SurfaceHit const& hit) const {
+        return std::holds_alternative<TriangleMesh>(record.object->shape) ? triangle_to_square(hit.hit_uv)
+                                                                          : hit.hit_uv;
+    }
+    // Never asked for: nothing is drawn but by area.
+    [[nodiscard]] static Vec2 square(Vec3) { return {0, 0}; }
+    [[nodiscard]] static float area_pdf(Vec3, Vec3) { return 0.0f; }
+    static bool draw_seen(Vec2, LightSample&) { return false; }
+    [[nodiscard]] static float seen_pdf(Vec3, Vec3) { return 0.0f; }
+};
+
+/// The share of samples that a picture's bright places get; the rest is spread over what is seen. One sample of two strategies
+/// with the balance heuristic (Veach 1997, 9.2.4): the density is the sum of theirs.
+constexpr float kPictureShare = 0.5f;
+
+Distribution2D const* picture_of(LightTable const& lights, LightEntry const& e, ShapeSampling how) {
+    if (e.picture == LightEntry::kNone || how != ShapeSampling::SolidAngle) return nullptr;
+    Distribution2D const& d = lights.pictures[e.picture].distribution;
+    return d.empty() ? nullptr : &d;
+}
+
+template <class Emitting>
+bool sample(Emitting const& emitter, Distribution2D const* picture, Receiver const& to, Vec2 u,
+            LightSample& s) {
+    bool const by_picture = picture && u.x < kPictureShare;
+    if (picture)
+        u.x = min(by_picture ? u.x / kPictureShare : (u.x - kPictureShare) / (1.0f - kPictureShare),
+                  kOneMinusEpsilon);
+    Vec2 square = u;
+    float area_pdf = 0;
+    if (by_picture || !emitter.has_view) {
+        if (by_picture) square = picture->sample(u);
+        area_pdf = emitter.draw_by_area(square, s);
+        if (!aim(to, s)) return false;
+        s.pdf =
+            emitter.has_view ? emitter.seen_pdf(s.p, s.wi) : by_solid_angle(area_pdf, to.p, s.p, s.n, s.wi);
+    } else {
+        if (!emitter.draw_seen(u, s)) return false;
+        if (picture) square = emitter.square(s.p), area_pdf = emitter.area_pdf(s.p, s.n);
+    }
+    if (picture)
+        s.pdf =
+            lerp(kPictureShare, s.pdf, by_solid_angle(picture->pdf(square) * area_pdf, to.p, s.p, s.n, s.wi));
+    return s.pdf > 0.0f && std::isfinite(s.pdf);
+}
+
+template <class Emitting>
+float pdf(Emitting const& emitter, Distribution2D const* picture, Receiver const& to, SurfaceHit const& hit,
+          Vec3 w) {
+    auto const by_area = [&](float level) {
+        return by_solid_angle(level * emitter.area_pdf(hit), to.p, hit.s.p, hit.s.ng, w);
+    };
+    float const seen = emitter.has_view ? emitter.seen_pdf(hit.s.p, w) : by_area(1);
+    return picture ? lerp(kPictureShare, seen, by_area(picture->pdf(emitter.square(hit)))) : seen;
+}
+
+/// f(how the entry is an emitter).
+template <class F>
+auto with_emitter(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
+                  ShapeSampling how, F const& f) {
+    switch (e.shape) {
+        case LightShape::Triangle:
+        case LightShape::Rectangle:
+        case LightShape::Parallelogram:
+            return f(FlatEmitter(lights, e, to, how));
+        case LightShape::Analytic: {
+            Shape const& shape = parts.records[e.record].object->shape;
+            if (auto const* sphere = std::get_if<Sphere>(&shape))
+                return f(RoundEmitter<Sphere>(*sphere, lights, parts, e, to, how));
+            if (auto const* cylinder = std::get_if<Cylinder>(&shape))
+                return f(RoundEmitter<Cylinder>(*cylinder, lights, parts, e, to, how));
+            return f(RoundEmitter<Disk>(std::get<Disk>(shape), lights, parts, e, to, how));
+        }
+        default:
+            return f(PartEmitter(parts, e));
+    }
+}
+
+}  // namespace
+
+bool sample_emitter(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
+                    Receiver const& to, ShapeSampling how, Vec2 u, LightSample& s) {
+    if (e.shape == LightShape::Box)
+        return SeenBox(lights.boxes[e.more], to, how,
+                       lights.emitters[parts.records[e.record].emitter].light->two_sided)
+            .sample(u, s);
+    Distribution2D const* picture = picture_of(lights, e, how);
+    return with_emitter(lights, parts, e, to, how,
+                        [&](auto const& emitter) { return sample(emitter, picture, to, u, s); });
+}
+
+float emitter_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
+                  ShapeSampling how, SurfaceHit const& hit, Vec3 w) {
+    if (e.shape == LightShape::Box)
+        return SeenBox(lights.boxes[e.more], to, how,
+                       lights.emitters[parts.records[e.record].emitter].light->two_sided)
+            .pdf(hit.part, hit.s.p, w);
+    Distribution2D const* picture = picture_of(lights, e, how);
+    return with_emitter(lights, parts, e, to, how,
+                        [&](auto const& emitter) { return pdf(emitter, picture, to, hit, w); });
+}
+
+}  // namespace nephroid
