@@ -98,7 +98,7 @@ void bias(Lab const& lab) {
     Setup const setup = line_under_box(6);
     Reference const exact = closed_form(setup, radiance);
     int const seeds = lab.seeds(16);
-    std::uint64_t const passes = lab.passes(65536);
+    std::uint64_t const passes = lab.passes(32768);
     std::vector<std::vector<std::string>> rows{{"Lambert, radiance"}};
     for (auto const& c : exact.picture.rgb) rows[0].push_back(number(c[0], 4));
     double worst = 0;

@@ -50,8 +50,8 @@ void many_lights(Lab const& lab) {
         row.pictures.push_back(render_picture(whole, direct(choice, "independent"), 16, 1));
         columns.emplace_back(choice);
     }
-    row.pictures.push_back(render_picture(whole, direct("bvh", "zsobol"), lab.passes(1024), 1));
-    columns.emplace_back(lab.quick ? "4 samples" : "1024 samples");
+    row.pictures.push_back(render_picture(whole, direct("bvh", "zsobol"), lab.passes(256), 1));
+    columns.emplace_back(lab.quick ? "8 samples" : "256 samples");
     row.exposure = exposure_for(row.pictures.back(), 0.93);
     write_sheet(page.file("many-lights.png"), columns, {row});
     page.image(

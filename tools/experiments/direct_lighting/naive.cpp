@@ -60,15 +60,15 @@ void naive_or_direct(Lab const& lab) {
     }
     columns[2] = "both, mis";
     row.pictures.push_back(render_picture(
-        large, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(512), 1));
-    columns.emplace_back(lab.quick ? "4" : "512 samples");
+        large, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(256), 1));
+    columns.emplace_back(lab.quick ? "8" : "256 samples");
     row.exposure = exposure_for(row.pictures.back(), 0.90);
     write_sheet(page.file("naive.png"), columns, {row});
     page.image("naive.png", "The room at 16 samples: naive, lights sampled, both; and the limit");
 
     Setup const small = room(lab.pixels(48), lab.pixels(36));
     Reference const reference = reference_by_samples(
-        small, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(4096));
+        small, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(2048));
     std::vector<int> const counts{1, 2, 4, 8, 16, 32, 64, 128, 256};
     std::vector<double> const x(counts.begin(), counts.end());
     std::vector<Line> lines;
@@ -85,7 +85,7 @@ void naive_or_direct(Lab const& lab) {
                         {"relative RMSE"}, lines));
     page.image("naive.svg", "Relative RMSE over samples: naive, lights sampled, both");
     page.table({"", "1 sample", "16", "256", "slope", "naive samples that one is worth"}, rows);
-    page.text("Error of the reference (2 × " + std::to_string(lab.passes(4096)) +
+    page.text("Error of the reference (2 × " + std::to_string(lab.passes(2048)) +
               " samples): " + percent(reference.error) +
               ". All ways fall with the same slope: to ask the light moves the line down, at any number of "
               "samples, and "

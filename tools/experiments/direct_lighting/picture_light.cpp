@@ -65,15 +65,15 @@ void picture_light(Lab const& lab) {
     SheetRow row{"", {}, 1};
     for (std::string const shapes : {"area", "solidangle"})
         row.pictures.push_back(render_picture(whole, direct(shapes, "independent"), 16, 1));
-    row.pictures.push_back(render_picture(whole, direct("solidangle", "zsobol"), lab.passes(2048), 1));
+    row.pictures.push_back(render_picture(whole, direct("solidangle", "zsobol"), lab.passes(512), 1));
     row.exposure = exposure_for(row.pictures.back());
-    write_sheet(page.file("picture-light.png"), {"area", "default", lab.quick ? "8" : "2048 samples"}, {row});
+    write_sheet(page.file("picture-light.png"), {"area", "default", lab.quick ? "16" : "512 samples"}, {row});
     page.image("picture-light.png",
                "The floor below the picture at 16 samples, by area and by default; and the limit");
 
     Setup const points = setup(lab.pixels(32), scenes::Pixels::Points);
     Reference const reference =
-        reference_by_samples(points, "Integrator \"direct\"\nSampler \"zsobol\"", lab.passes(8192));
+        reference_by_samples(points, "Integrator \"direct\"\nSampler \"zsobol\"", lab.passes(4096));
     constexpr std::array kCounts{16, 256};
     std::vector<std::vector<std::string>> rows;
     double by_area = 0;

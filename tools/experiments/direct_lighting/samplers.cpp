@@ -121,7 +121,7 @@ void samplers(Lab const& lab) {
            "receiver sees of the "
            "light has an edge.",
            shadowed,
-           reference_by_samples(shadowed, "Integrator \"direct\"\nSampler \"zsobol\"", lab.passes(8192)));
+           reference_by_samples(shadowed, "Integrator \"direct\"\nSampler \"zsobol\"", lab.passes(4096)));
     page.text(
         "A stratified sampler keeps its promise at whole blocks: 4 × 4 strata are good at 16 samples, and "
         "from there on blocks "

@@ -39,7 +39,7 @@ std::string ball_on_floor() {
 
 void sheet(Lab const& lab, std::string const& file, std::string const& alt,
            std::vector<Trial> const& trials) {
-    std::uint64_t const many = lab.quick ? 64 : 1024;
+    std::uint64_t const many = lab.quick ? 64 : 256;
     std::vector<std::string> columns;
     for (int const n : kCounts) columns.push_back(std::to_string(n));
     columns.push_back(std::to_string(many));
@@ -69,7 +69,7 @@ void table(Lab const& lab, std::vector<Trial> const& trials) {
             reference = reference_by_samples(setup,
                                              "Integrator \"direct\" \"string strategy\" \"mis\"\nSampler "
                                              "\"zsobol\"",
-                                             lab.passes(4096));
+                                             lab.passes(2048));
         last = t.world;
         for (std::string const sampler : {"independent", "zsobol"}) {
             std::vector<std::string> row{t.name, "`" + sampler + "`"};
