@@ -84,14 +84,17 @@ void strategies(Lab const& lab) {
     one_light(lab, "A large light", "large-light", 4);
     page.text(
         "Scattering meets a small light rarely, sampling always: the distance between the lines is what "
-        "next-event estimation "
-        "is for. Under a light that fills most of the sky it is the other way round, for then the cosine is "
-        "what matters. MIS "
-        "follows the better of both without being told which; it sends two rays a sample. With independent "
-        "samples every "
-        "line has slope −1/2. Sobol' points go down faster the smoother the integrand is over the square of "
-        "random numbers: "
-        "light that is always found is smooth, light that is found by chance has an edge.");
+        "next-event "
+        "estimation is for. A light that fills most of the sky is met by nearly every direction, and then "
+        "points "
+        "by area are the worst of all at one sample, for most of them are far off and seen slantwise. MIS is "
+        "told "
+        "neither, and stays near the better of its two ways; where that one is good enough alone, the second "
+        "ray "
+        "adds a little noise instead of taking some. With independent samples every line has slope −1/2. "
+        "Sobol' points go down faster the smoother the integrand is over the square of random numbers: light "
+        "that "
+        "is always found is smooth, light that is found by chance has an edge.");
 }
 
 }  // namespace nephroid::experiment
