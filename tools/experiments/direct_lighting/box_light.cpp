@@ -121,8 +121,8 @@ void bias(Lab const& lab) {
     page.text(
         fmt::format("Differences of the mean of {} samples, with their standard errors. Of the four that are "
                     "meant to be right, the "
-                    "farthest is {} standard errors off (the largest of 24 is below 3.2 nineteen times out "
-                    "of twenty or more often). "
+                    "farthest is {} standard errors off (of 24, over sixteen seeds each, the largest is "
+                    "below 3.8 nineteen times out of twenty). "
                     "`visibleunweighed` chooses any visible face with the same probability and divides by "
                     "the density of a choice by "
                     "area: it is there to show what that does, {} at most here, and is not for pictures. "
