@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# page.sh PROGRAM NAME DOCS: a quick run of an experiment writes a page that is whole, the same on every run, and has the
+# sections of the one that is checked in (DOCS/NAME.md), whose pictures are all there as well.
+set -euo pipefail
+program=$1 name=$2 docs=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+bad=0
+fail() {
+    echo "FAILED: $*"
+    bad=1
+}
+headings() { grep -E '^#+ ' "$1"; }
+pictures() { grep -oE '\]\([^)#]*\)' "$1" | tr -d '()]' | LC_ALL=C sort; }
+
+whole() { # whole FOLDER: every picture that the page shows is there, and no other
+    local page=$1/$name.md
+    diff <(pictures "$page") <(cd "$1" && find "$name" -type f | LC_ALL=C sort) || fail "$page and its folder disagree on the pictures"
+    local file
+    for file in "$1/$name"/*; do
+        case $file in
+            *.png) [[ $(head -c 4 "$file" | tail -c 3) == PNG ]] || fail "$file is no PNG" ;;
+            *.svg) [[ $(tail -n 1 "$file") == "</svg>" ]] || fail "$file does not end" ;;
+            *) fail "$file is neither PNG nor SVG" ;;
+        esac
+    done
+    # Coordinates of plots count as numbers too.
+    ! grep -nwiE -- '-?(nan|inf)' "$page" "$1/$name"/*.svg || fail "numbers that are none"
+}
+
+"$program" --quick "$work/a"
+"$program" --quick "$work/b" 2>/dev/null
+[[ -s $work/a/$name.md ]] || { echo "FAILED: no page" && exit 1; }
+diff -r "$work/a" "$work/b" || fail "two runs differ"
+whole "$work/a"
+rows=$(grep -cE '^\|.*[0-9]' "$work/a/$name.md")
+((rows >= 60)) || fail "only $rows rows of numbers"
+
+whole "$docs"
+diff <(headings "$docs/$name.md") <(headings "$work/a/$name.md") || fail "the page that is checked in is of another program: run ./dev experiment $name"
+! grep -q 'A quick run' "$docs/$name.md" || fail "the page that is checked in is of a quick run"
+size=$(cat "$docs/$name.md" "$docs/$name"/* | wc -c)
+((size <= 1500000)) || fail "the page and its pictures are $size bytes"
+
+# What cannot be written is said.
+! "$program" --quick /dev/null/nowhere 2>/dev/null || fail "a folder that cannot be made is no error"
+! "$program" 2>/dev/null || fail "no folder is no error"
+exit "$bad"

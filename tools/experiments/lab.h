@@ -1,0 +1,24 @@
+// What a page's sections share: the page, and how large a run is.
+#pragma once
+
+#include "page.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace nephroid::experiment {
+
+struct Lab {
+    Page& page;
+    bool quick = false;             // a run of seconds that shows that everything works, and nothing else
+    std::filesystem::path scratch;  // for files that a scene reads; gone when the run ends
+
+    /// Passes of measurements that need no particular number.
+    [[nodiscard]] std::uint64_t passes(std::uint64_t n) const {
+        return quick ? std::max<std::uint64_t>(4, n / 32) : n;
+    }
+    [[nodiscard]] int pixels(int n) const { return quick ? std::max(6, n / 6) : n; }
+    [[nodiscard]] int seeds(int n) const { return quick ? 2 : n; }
+};
+
+}  // namespace nephroid::experiment

@@ -1,0 +1,45 @@
+// A page of Markdown with its pictures beside it. Numbers that are not finite are refused: a page says nothing that was
+// not measured.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nephroid::experiment {
+
+/// `digits` significant digits, without an exponent between 0.001 and 100,000. Throws std::runtime_error for nan and inf.
+std::string number(double value, int digits = 3);
+/// A fixed count of decimals, with a proper minus.
+std::string fixed(double value, int decimals);
+/// A share as "1.23%", with two significant digits.
+std::string percent(double share);
+/// "0.123 ± 0.004": the error has one digit, or two when it begins with 1, and the value as many decimals.
+std::string with_error(double value, double error);
+
+class Page {
+  public:
+    /// folder/name.md and folder/name/…; what the latter held before is removed.
+    Page(std::filesystem::path folder, std::string name, std::string const& title);
+
+    void section(std::string const& title);
+    void subsection(std::string const& title);
+    void text(std::string const& paragraph);
+    void list(std::vector<std::string> const& items);
+    /// pbrt text, as it was run.
+    void code(std::string const& text);
+    void table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows);
+    /// A picture that is, or will be, at file(name).
+    void image(std::string const& name, std::string const& alt);
+    [[nodiscard]] std::filesystem::path file(std::string const& name) const;
+    void save(std::string const& name, std::string const& text) const;
+
+    /// Throws Error(Io).
+    void write() const;
+
+  private:
+    std::filesystem::path folder_;
+    std::string name_, text_;
+};
+
+}  // namespace nephroid::experiment
