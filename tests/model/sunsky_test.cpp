@@ -183,7 +183,7 @@ TEST_CASE("sky: positive and finite over the whole range of turbidities and suns
                 auto const s = d.radiance(w, l);
                 REQUIRE(s.is_finite());
                 // Red horizons lie beyond the daylight components, whose violet end would be negative there.
-                for (int k = 0; k < 4; ++k) REQUIRE((s[k] > 0 || (s[k] == 0 && l.lambda(k) < 425)));
+                for (int k = 0; k < 4; ++k) REQUIRE((s[k] > 0 || (s[k] == 0 && l.lambda(k) < 440)));
                 REQUIRE(d.pdf(w) > 0);
             }
         }
