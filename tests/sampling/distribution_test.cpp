@@ -229,7 +229,7 @@ TEST_CASE("Distribution2D: one texel of 1e6 among others of 1e-3: the dim ones a
     for (std::size_t x = 0; x < side; ++x) f[50 * side + x] = 0;
     Distribution2D const d(f, side, side);
     Random r(6);
-    int const n = samples(1'000'000, 4'000'000);
+    int const n = samples(5'000'000, 20'000'000);  // the dim cells get some 0.8% of them
     double const alpha = sidak(3);
     // Four quarters to a cell.
     std::vector<double> o(f.size() * 4), e(f.size() * 4);
@@ -266,7 +266,7 @@ TEST_CASE("Distribution2D: one texel of 1e6 among others of 1e-3: the dim ones a
             exact += (1 + (static_cast<double>(i % side) + 0.5) * (static_cast<double>(i / side) + 0.5) /
                               (side * side)) /
                      static_cast<double>(f.size());
-    auto const a = agrees(dim, exact, 0.03, alpha);
+    auto const a = agrees(dim, exact, 0.05, alpha);
     INFO(a);
     CHECK(a);
     auto const b = agrees(all, static_cast<double>(d.integral()), 0.001, alpha);
