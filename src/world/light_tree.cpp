@@ -93,10 +93,10 @@ class LightTreeBuilder {
     LightTreeBuilder(LightTree& tree, std::span<LightBounds const> bounds) : tree_(tree), bounds_(bounds) {
         for (std::uint32_t i = 0; i < bounds.size(); ++i)
             if (bounds[i].intensity > 0.0f) order_.push_back(i);
-        tree.leaf_of_light_.assign(bounds.size(), LightTree::kNone);
+        tree.order_.assign(bounds.size(), LightTree::kNone);
         if (order_.empty()) return;
         tree.nodes_.reserve(2 * order_.size());
-        tree.nodes_.resize(order_.size() == 1 ? 1 : 2);
+        tree.nodes_.resize(1);
         build(0, 0, order_.size(), 0);
     }
 
@@ -108,9 +108,9 @@ class LightTreeBuilder {
         if (end - begin == 1) {
             std::uint32_t const light = order_[begin];
             all = bounds_[light];
-            fill(node, all);
+            fill(node, all, begin, end);
             tree_.nodes_[node].link = LightTree::kLeaf | light;
-            tree_.leaf_of_light_[light] = node;
+            tree_.order_[light] = static_cast<std::uint32_t>(begin);
             return all;
         }
         // Lights whose distances grow like powers would make a tree as deep as they are many: halves end that.
@@ -119,13 +119,12 @@ class LightTreeBuilder {
         tree_.nodes_.resize(tree_.nodes_.size() + 2);
         all = build(first, begin, middle, depth + 1);
         unite(all, build(first + 1, middle, end, depth + 1));
-        fill(node, all);
+        fill(node, all, begin, end);
         tree_.nodes_[node].link = first;
-        tree_.nodes_[first].parent = tree_.nodes_[first + 1].parent = node;
         return all;
     }
 
-    void fill(std::uint32_t index, LightBounds const& b) {
+    void fill(std::uint32_t index, LightBounds const& b, std::size_t begin, std::size_t end) {
         LightTree::Node& n = tree_.nodes_[index];
         n.centre = b.box.centre();
         n.radius2 = 0.25f * length_squared(b.box.diagonal());
@@ -135,6 +134,8 @@ class LightTreeBuilder {
         n.sin_normals = safe_sqrt(1.0f - sqr(b.cos_normals));
         n.cos_emission = b.cos_emission;
         n.two_sided = b.two_sided;
+        n.begin = static_cast<std::uint32_t>(begin);
+        n.count = static_cast<std::uint32_t>(end - begin);
     }
 
     /// Puts [begin, end) in an order in which [begin, middle) and [middle, end) are the children.
@@ -200,7 +201,7 @@ LightTree::LightTree(std::span<LightBounds const> bounds) {
 }
 
 std::size_t LightTree::bytes() const {
-    return nodes_.size() * sizeof(Node) + leaf_of_light_.size() * sizeof(std::uint32_t);
+    return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t);
 }
 
 /// What the crowd may send to the receiver at most, up to a factor (Conty & Kulla 2018, eq. 3): intensity / d^2, with the
@@ -238,41 +239,86 @@ float LightTree::importance(Node const& node, Receiver const& to) {
     return min(value, 1e30f);
 }
 
+/// Nodes to choose among, and what each may contribute.
+struct LightTree::Front {
+    static constexpr std::uint32_t kMost = 192;
+    std::array<std::uint32_t, kMost> node;
+    std::array<float, kMost> weight;
+    std::uint32_t size = 0;
+    double sum = 0;
+};
+
+/// The front below a node: all of a small node's lights; else three generations below it, and below what is near (as seen from the
+/// receiver it fills a large angle, or surrounds it) as many as there is room for. It depends on the receiver alone, so that pmf()
+/// finds what sample() saw.
+void LightTree::gather(std::uint32_t root, Receiver const& to, Front& front) const {
+    constexpr std::uint32_t kGenerations = 3;
+    constexpr float kNear2 = 0.1f;  // squared radius over squared distance
+    struct Open {
+        std::uint32_t node, generation;
+    };
+    std::array<Open, Front::kMost> open;
+    std::uint32_t waiting = 0;
+    bool const small = nodes_[root].count <= kSmall;
+    front.size = 0;
+    front.sum = 0;
+    open[waiting++] = {root, 0};
+    while (waiting > 0) {
+        Open const o = open[--waiting];
+        Node const& n = nodes_[o.node];
+        bool split = !(n.link & kLeaf);
+        if (split && !small && o.generation >= kGenerations)
+            split = n.count > kSmall && n.radius2 > kNear2 * distance_squared(to.p, n.centre);
+        if (split && (o.generation == 0 || front.size + waiting + 2 <= Front::kMost)) {
+            open[waiting++] = {n.link + 1, o.generation + 1};
+            open[waiting++] = {n.link, o.generation + 1};
+            continue;
+        }
+        float const w = importance(n, to);
+        if (!(w > 0.0f)) continue;
+        front.node[front.size] = o.node;
+        front.weight[front.size] = w;
+        ++front.size;
+        front.sum += static_cast<double>(w);
+    }
+}
+
 std::optional<LightTree::Choice> LightTree::sample(Receiver const& to, double u) const {
     std::optional<Choice> choice;
     if (nodes_.empty()) return choice;
+    Front front;
     std::uint32_t at = 0;
     double pmf = 1;
     while (!(nodes_[at].link & kLeaf)) {
-        std::uint32_t const first = nodes_[at].link;
-        auto const a = static_cast<double>(importance(nodes_[first], to));
-        auto const b = static_cast<double>(importance(nodes_[first + 1], to));
-        if (!(a + b > 0)) return choice;
-        double const p = a / (a + b);
-        if (u < p) {
-            u /= p;
-            pmf *= p;
-            at = first;
-        } else {
-            u = (u - p) / (1 - p);
-            pmf *= 1 - p;
-            at = first + 1;
-        }
-        u = std::min(u, 1 - 0x1p-53);
+        gather(at, to, front);
+        if (front.size == 0) return choice;
+        double left = u * front.sum;
+        std::uint32_t i = 0;
+        while (i + 1 < front.size && left >= static_cast<double>(front.weight[i]))
+            left -= static_cast<double>(front.weight[i++]);
+        auto const w = static_cast<double>(front.weight[i]);
+        pmf *= w / front.sum;
+        u = std::clamp(left / w, 0.0, 1 - 0x1p-53);
+        at = front.node[i];
     }
     choice.emplace(Choice{nodes_[at].link & ~kLeaf, static_cast<float>(pmf)});
     return choice;
 }
 
 float LightTree::pmf(Receiver const& to, std::uint32_t light) const {
-    std::uint32_t at = leaf_of_light_[light];
-    if (at == kNone) return 0.0f;
+    std::uint32_t const order = order_[light];
+    if (order == kNone) return 0.0f;
+    Front front;
+    std::uint32_t at = 0;
     double pmf = 1;
-    while (at != 0) {
-        auto const mine = static_cast<double>(importance(nodes_[at], to));
-        if (!(mine > 0)) return 0.0f;
-        pmf *= mine / (mine + static_cast<double>(importance(nodes_[at ^ 1u], to)));
-        at = nodes_[at].parent;
+    while (!(nodes_[at].link & kLeaf)) {
+        gather(at, to, front);
+        // The one that the light is in.
+        std::uint32_t i = 0;
+        while (i < front.size && order - nodes_[front.node[i]].begin >= nodes_[front.node[i]].count) ++i;
+        if (i == front.size) return 0.0f;
+        pmf *= static_cast<double>(front.weight[i]) / front.sum;
+        at = front.node[i];
     }
     return static_cast<float>(pmf);
 }

@@ -68,7 +68,8 @@ TEST_CASE("many lights: 10^5 emissive triangles take little memory, and choosing
     World const world = compile(hall.scene);
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     double const bytes = static_cast<double>(world.memory().lights) / static_cast<double>(hall.lamps.size());
-    MESSAGE(hall.lamps.size(), " lights: the whole world is compiled in ", seconds, " s, ", bytes, " bytes a light");
+    MESSAGE(hall.lamps.size(), " lights: the whole world is compiled in ", seconds, " s, ", bytes,
+            " bytes a light");
     CHECK(world.counts().lights == hall.lamps.size());
     CHECK(bytes <= 400);
 
@@ -83,8 +84,9 @@ TEST_CASE("many lights: 10^5 emissive triangles take little memory, and choosing
     while (points < 24) {
         SurfaceHit hit;
         Vec3 const eye{0, 0, 2.5f};
-        Vec3 const d = normalize(Vec3{static_cast<float>(r.uniform(-1, 1)), static_cast<float>(r.uniform(-1, 1)),
-                                      static_cast<float>(r.uniform(-1, 0.6))});
+        Vec3 const d =
+            normalize(Vec3{static_cast<float>(r.uniform(-1, 1)), static_cast<float>(r.uniform(-1, 1)),
+                           static_cast<float>(r.uniform(-1, 0.6))});
         if (!world.intersect({eye, d}, kInfinity, RayKind::Camera, stats, hit) || hit.emits) continue;
         ++points;
         Vec3 const n = face_forward(hit.s.ng, -d);
@@ -104,7 +106,8 @@ TEST_CASE("many lights: 10^5 emissive triangles take little memory, and choosing
             cdf[i + 1] = cdf[i] + unshadowed(hall.lamps[i], to.p, n);
         Mean oracle;
         for (int i = 0; i < draws; ++i) {
-            auto const at = std::upper_bound(cdf.begin(), cdf.end(), r.uniform() * cdf.back()) - cdf.begin() - 1;
+            auto const at =
+                std::upper_bound(cdf.begin(), cdf.end(), r.uniform() * cdf.back()) - cdf.begin() - 1;
             auto const k = std::min(static_cast<std::size_t>(at), hall.lamps.size() - 1);
             Lamp const& l = hall.lamps[k];
             LightSample s;
@@ -121,7 +124,8 @@ TEST_CASE("many lights: 10^5 emissive triangles take little memory, and choosing
             double x = 0;
             if (dot(n, s.wi) > 0 && cosine > 0)
                 x = static_cast<double>(l.radiance) * static_cast<double>(dot(n, s.wi)) * cosine / r2 * area *
-                    static_cast<double>(world.transmittance(hit, s, stats)) * cdf.back() / (cdf[k + 1] - cdf[k]);
+                    static_cast<double>(world.transmittance(hit, s, stats)) * cdf.back() /
+                    (cdf[k + 1] - cdf[k]);
             oracle.add(x);
         }
         // Both find the same.

@@ -163,8 +163,10 @@ TEST_CASE("light tree: lights in one place, in a row that doubles, too bright fo
             for (std::uint32_t k = 0; k < all->size(); ++k)
                 sum += static_cast<double>(tree.pmf(Receiver{p}, k));
             // In the very place of all lights none can send anything.
-            if (all == &same && p == Vec3{1, 2, 3}) CHECK(sum == 0);
-            else CHECK(sum == doctest::Approx(1).epsilon(1e-4));
+            if (all == &same && p == Vec3{1, 2, 3})
+                CHECK(sum == 0);
+            else
+                CHECK(sum == doctest::Approx(1).epsilon(1e-4));
         }
     }
 }
