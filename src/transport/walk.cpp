@@ -47,7 +47,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
                     walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
                 float const w = emission_weight(walk, weight, pdf);
                 if (w > 0.0f)
-                    radiance += walk.beta * c.world.environment(light, walk.from.p, walk.ray.d, c.lambda) * w;
+                    radiance += walk.beta * c.world.environment(light, walk.ray.o, walk.ray.d, c.lambda) * w;
             }
             return false;
         }
@@ -123,7 +123,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.pdf;
-    walk.from = receiver_of(v);
+    if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
     walk.cone += v.hit.t;
     walk.ray = v.hit.spawn(normalize(v.frame.from_local(s.wi)));
     ++walk.vertex;

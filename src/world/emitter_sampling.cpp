@@ -36,6 +36,7 @@ struct FlatEmitter {
     LightEntry const& e;
     LightPicture const* picture;
     Receiver const& to;
+    FlatView view = FlatView::Far;
     bool has_view;
 
     FlatEmitter(LightTable const& lights, LightEntry const& entry, Receiver const& receiver,
@@ -43,7 +44,8 @@ struct FlatEmitter {
         : e(entry),
           picture(entry.picture == LightEntry::kNone ? nullptr : &lights.pictures[entry.picture]),
           to(receiver),
-          has_view(how == ShapeSampling::SolidAngle && is_near(entry, receiver)) {}
+          view(how == ShapeSampling::SolidAngle ? view_of(entry, receiver) : FlatView::Far),
+          has_view(view != FlatView::Far) {}
 
     void put(Vec2 st, LightSample& s) const {
         s.p = e.corner + st.x * e.edge1 + st.y * e.edge2;
@@ -63,12 +65,23 @@ struct FlatEmitter {
     [[nodiscard]] Vec2 square(SurfaceHit const& hit) const { return square(hit.s.p); }
     [[nodiscard]] float area_pdf(SurfaceHit const&) const { return e.area_pdf; }
     bool draw_seen(Vec2 u, LightSample& s) const {
+        if (view == FlatView::Between) {
+            float square_pdf = 0;
+            float const by_area = draw_by_area(bend_square(e, to, u, square_pdf), s);
+            if (!aim(to, s)) return false;
+            s.pdf = by_solid_angle(square_pdf * by_area, to.p, s.p, s.n, s.wi);
+            return true;
+        }
         Vec2 st;
-        if (!sample_seen_flat(e, to, u, st, s.pdf)) return false;
+        if (!sample_near_flat(e, to, u, st, s.pdf)) return false;
         put(st, s);
         return aim(to, s);
     }
-    [[nodiscard]] float seen_pdf(Vec3 p, Vec3) const { return seen_flat_pdf(e, to, p); }
+    [[nodiscard]] float seen_pdf(Vec3 p, Vec3 w) const {
+        return view == FlatView::Near
+                   ? near_flat_pdf(e, to, p)
+                   : by_solid_angle(e.area_pdf * bent_square_pdf(e, to, square(p)), to.p, p, e.normal, w);
+    }
 };
 
 /// What parts share that have no place of their own in the entry.

@@ -5,38 +5,30 @@
 
 namespace nephroid {
 
-std::optional<LightTable::Choice> LightTable::choose(Receiver const& to, LightChoice how, double u) const {
-    std::optional<Choice> choice;
-    if (by_power.empty()) return choice;  // all of them are dark
-    if (entries.size() == 1) {            // nothing to choose
-        choice.emplace(Choice{0, 1});
-        return choice;
-    }
+LightTable::Choice LightTable::choose_among(Receiver const& to, LightChoice how, double u) const {
+    if (by_power.empty()) return {};  // all of them are dark
     switch (how) {
         case LightChoice::Power: {
             auto const s = by_power.sample(u);
-            choice.emplace(Choice{s.index, s.pmf});
-            break;
+            return {s.index, s.pmf};
         }
         case LightChoice::Uniform: {
             auto const n = static_cast<double>(entries.size());
             auto const i = std::min(static_cast<std::size_t>(u * n), entries.size() - 1);
-            choice.emplace(Choice{static_cast<std::uint32_t>(i), static_cast<float>(1 / n)});
-            break;
+            return {static_cast<std::uint32_t>(i), static_cast<float>(1 / n)};
         }
         case LightChoice::Bvh: {
             auto const share = static_cast<double>(boundless_share());
             if (u < share) {
                 auto const n = static_cast<double>(boundless.size());
                 auto const i = std::min(static_cast<std::size_t>(u / share * n), boundless.size() - 1);
-                choice.emplace(Choice{boundless[i], static_cast<float>(share / n)});
-            } else if (auto const c = tree.sample(to, std::min((u - share) / (1 - share), 1 - 0x1p-53))) {
-                choice.emplace(Choice{c->light, static_cast<float>(1 - share) * c->pmf});
+                return {boundless[i], static_cast<float>(share / n)};
             }
-            break;
+            if (auto const c = tree.sample(to, std::min((u - share) / (1 - share), 1 - 0x1p-53)))
+                return {c->light, static_cast<float>(1 - share) * c->pmf};
         }
     }
-    return choice;
+    return {};
 }
 
 float LightTable::pmf(Receiver const& to, LightChoice how, std::uint32_t entry) const {

@@ -95,12 +95,16 @@ class LightTable {
         std::uint32_t entry = 0;
         float pmf = 0;
     };
-    /// One entry, as `how` says; nothing where none can reach the receiver.
-    [[nodiscard]] std::optional<Choice> choose(Receiver const& to, LightChoice how, double u) const;
+    /// One entry, as `how` says; pmf 0 where none can reach the receiver.
+    [[nodiscard]] Choice choose(Receiver const& to, LightChoice how, double u) const {
+        // One alone is no choice; it is the case of many small scenes.
+        return entries.size() == 1 ? Choice{0, by_power.empty() ? 0.0f : 1.0f} : choose_among(to, how, u);
+    }
     [[nodiscard]] float pmf(Receiver const& to, LightChoice how, std::uint32_t entry) const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    [[nodiscard]] Choice choose_among(Receiver const& to, LightChoice how, double u) const;
     /// The share of choices that the boundless lights get: each counts like the whole tree (PBRT 4th ed., 12.6.3).
     [[nodiscard]] float boundless_share() const {
         auto const n = static_cast<float>(boundless.size());

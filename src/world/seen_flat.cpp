@@ -3,6 +3,7 @@
 #include "sampling/spherical_rectangle.h"
 #include "sampling/spherical_triangle.h"
 #include "sampling/warp.h"
+#include "spectrum/spectrum.h"
 
 #include <array>
 
@@ -92,7 +93,7 @@ std::array<Vec3, 4> square_corners(LightEntry const& e, Vec3 corner) {
 
 }  // namespace
 
-bool sample_seen_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st, float& pdf) {
+bool sample_near_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st, float& pdf) {
     Vec3 const corner = e.corner - to.p;
     switch (e.shape) {
         case LightShape::Rectangle:
@@ -110,7 +111,7 @@ bool sample_seen_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st,
     }
 }
 
-float seen_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p) {
+float near_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p) {
     Vec3 const corner = e.corner - to.p;
     switch (e.shape) {
         case LightShape::Rectangle:
@@ -123,6 +124,49 @@ float seen_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p) {
             return sum > 0.0f ? 1.0f / sum : 0.0f;
         }
     }
+}
+
+namespace {
+
+/// What the four corners of the square send to the receiver: cos cos / r^2, all at once.
+std::array<float, 4> corner_weights(LightEntry const& e, Receiver const& to) {
+    using Lanes = Spectrum::Lanes;
+    // Of the triangle's square the corner (1,1) is the middle of the edge (sampling/warp.h, square_to_triangle).
+    float const last = e.shape == LightShape::Triangle ? 0.5f : 1.0f;
+    Lanes const s{0, 1, 0, last};
+    Lanes const t{0, 0, 1, last};
+    Vec3 const c = e.corner - to.p;
+    Lanes const x = c.x + s * e.edge1.x + t * e.edge2.x;
+    Lanes const y = c.y + s * e.edge1.y + t * e.edge2.y;
+    Lanes const z = c.z + s * e.edge1.z + t * e.edge2.z;
+    Lanes const r2 = x * x + y * y + z * z;
+    // (n . v)(n_light . v) / r^4; the height over the light's plane is the same for all.
+    Lanes w = 1.0f / (r2 * r2);
+    if (to.n != Vec3(0)) {
+        Lanes cosine = x * to.n.x + y * to.n.y + z * to.n.z;
+        if (to.both_sides) {
+            cosine = cosine < 0.0f ? -cosine : cosine;
+        } else {
+            cosine = cosine < 0.0f ? cosine * 0.0f : cosine;
+        }
+        w *= cosine;
+    }
+    // What rounding hides stays possible.
+    float const least = 1e-3f * (w[0] + w[1] + w[2] + w[3]);
+    return {w[0] + least, w[1] + least, w[2] + least, w[3] + least};
+}
+
+}  // namespace
+
+Vec2 bend_square(LightEntry const& e, Receiver const& to, Vec2 u, float& pdf) {
+    auto const weights = corner_weights(e, to);
+    Vec2 const square = sample_bilinear(u, weights.data());
+    pdf = bilinear_pdf(square, weights.data());
+    return square;
+}
+float bent_square_pdf(LightEntry const& e, Receiver const& to, Vec2 square) {
+    auto const weights = corner_weights(e, to);
+    return bilinear_pdf(square, weights.data());
 }
 
 }  // namespace nephroid

@@ -32,12 +32,12 @@ bool World::chooses_lights() const { return lights_->entries.size() > 1; }
 
 std::optional<LightSample> World::sample_light(Receiver const& to, LightSampling how, double u_choose, Vec2 u,
                                                Wavelengths const& lambda) const {
-    auto const choice = lights_->choose(to, how.choice, u_choose);
-    if (!choice) return std::nullopt;
-    LightEntry const& entry = lights_->entries[choice->entry];
+    LightTable::Choice const choice = lights_->choose(to, how.choice, u_choose);
+    if (!(choice.pmf > 0.0f)) return std::nullopt;
+    LightEntry const& entry = lights_->entries[choice.entry];
     return entry.shape == LightShape::NoSurface
-               ? sample_light_without_surface(LightId{entry.part}, choice->pmf, to.p, u, lambda)
-               : sample_area_light(entry, choice->pmf, to, how.shapes, u, lambda);
+               ? sample_light_without_surface(LightId{entry.part}, choice.pmf, to.p, u, lambda)
+               : sample_area_light(entry, choice.pmf, to, how.shapes, u, lambda);
 }
 
 std::optional<LightSample> World::sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
