@@ -140,8 +140,10 @@ std::array<float, 4> corner_weights(LightEntry const& e, Receiver const& to) {
     Lanes const y = c.y + s * e.edge1.y + t * e.edge2.y;
     Lanes const z = c.z + s * e.edge1.z + t * e.edge2.z;
     Lanes const r2 = x * x + y * y + z * z;
-    // (n . v)(n_light . v) / r^4; the height over the light's plane is the same for all.
-    Lanes w = 1.0f / (r2 * r2);
+    // (n . v)(n_light . v) / r^4; the height over the light's plane is the same for all. Distances in units of the first one: their
+    // fourth powers would leave the range of floats.
+    Lanes const q = r2 * (1.0f / r2[0]);
+    Lanes w = 1.0f / (q * q);
     if (to.n != Vec3(0)) {
         Lanes cosine = x * to.n.x + y * to.n.y + z * to.n.z;
         if (to.both_sides) {
