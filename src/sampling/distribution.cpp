@@ -104,7 +104,7 @@ float Distribution1D::sample(float u, float* pdf, std::size_t* cell) const {
 }
 
 float Distribution1D::pdf(float x) const {
-    if (x < 0 || x > 1 || guide_.empty()) return 0;
+    if (!(x >= 0 && x <= 1) || guide_.empty()) return 0;
     return density(cell_of(x, guide_.size()));
 }
 
@@ -136,7 +136,7 @@ Vec2 Distribution2D::sample(Vec2 u, float* pdf) const {
 }
 
 float Distribution2D::pdf(Vec2 p) const {
-    if (p.y < 0 || p.y > 1) return 0;
+    if (!(p.y >= 0 && p.y <= 1)) return 0;
     std::size_t const row = cell_of(p.y, rows_.size());
     return rows_[row].pdf(p.x) * marginal_.pdf(p.y);
 }

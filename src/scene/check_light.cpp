@@ -26,6 +26,7 @@ void check_portal(Check const& c, std::array<Vec3, 4> const& corners) {
                 static_cast<double>(corners[(i + 1) % 4][k]) - static_cast<double>(corners[i][k]);
         length[i] = std::sqrt(side[i][0] * side[i][0] + side[i][1] * side[i][1] + side[i][2] * side[i][2]);
         c.require(length[i] > 0, "the light's portal has two equal corners; give it four, in order");
+        c.require(length[i] < 1e15, "the light's portal is wider than 1e15: make it as large as the opening");
     }
     auto const cosine = [&](std::size_t i, std::size_t j) {
         return (side[i][0] * side[j][0] + side[i][1] * side[j][1] + side[i][2] * side[j][2]) /
@@ -94,8 +95,9 @@ void check_light(Check const& c, Light const& light) {
                       "the direction of the sun must be finite and not (0, 0, 0)");
             c.require(l.sun_direction.z >= 0,
                       "the sun is below the horizon (z < 0), where this model of the sky ends: raise it");
-            c.require(l.sun_radius > 0 && l.sun_radius <= kPi / 4,
-                      "half of the sun's angle must be above 0 and at most 45 degrees");
+            // A smaller one would be lost between the directions that floats can tell apart.
+            c.require(l.sun_radius >= 2e-5f && l.sun_radius <= kPi / 4,
+                      "half of the sun's angle must be from 0.00115 to 45 degrees");
             c.require(l.sun || l.sky, "a light of neither sun nor sky: leave it out, or turn on one of them");
         },
         [&](GoniometricLight const& l) {

@@ -39,7 +39,8 @@ TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit co
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance) {
     RayKind const kind = walk.vertex == 0 ? RayKind::Camera : RayKind::Bounce;
     SurfaceHit& hit = v.hit;
-    double mix = -1;  // what decides at mixes; not drawn yet
+    Vec3 const origin = walk.ray.o;  // before any surface was passed: portals are seen from here
+    double mix = -1;                 // what decides at mixes; not drawn yet
     for (int i = 0; i < kMaxInterfaces; ++i) {
         if (!c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit)) {
             for (LightId const light : c.world.infinite_lights()) {
@@ -47,7 +48,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
                     walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
                 float const w = emission_weight(walk, weight, pdf);
                 if (w > 0.0f)
-                    radiance += walk.beta * c.world.environment(light, walk.ray.o, walk.ray.d, c.lambda) * w;
+                    radiance += walk.beta * c.world.environment(light, origin, walk.ray.d, c.lambda) * w;
             }
             return false;
         }

@@ -25,6 +25,9 @@ bool aim(Receiver const& to, LightSample& s) {
     return r2 > 0.0f;
 }
 
+/// Rounding may carry a point over its part's edge, where a density over the square would be 0.
+Vec2 within_square(Vec2 u) { return {clamp(u.x, 0.0f, 1.0f), clamp(u.y, 0.0f, 1.0f)}; }
+
 // Three ways to be an emitter. Each has
 //   draw_by_area(square, s)     a point by the part's area sampler; returns its density by area
 //   square(p), area_pdf(p, n)   the other way round, for points that were drawn otherwise …
@@ -59,7 +62,7 @@ struct FlatEmitter {
     }
     [[nodiscard]] Vec2 square(Vec3 p) const {
         Vec2 const st = coordinates(e, p);
-        return e.shape == LightShape::Triangle ? triangle_to_square(st) : st;
+        return e.shape == LightShape::Triangle ? within_square(triangle_to_square(st)) : st;
     }
     [[nodiscard]] float area_pdf(Vec3, Vec3) const { return e.area_pdf; }
     [[nodiscard]] Vec2 square(SurfaceHit const& hit) const { return square(hit.s.p); }
@@ -137,7 +140,7 @@ struct RoundEmitter : PartOfRecord {
         SeenSample local;
         if (!view->sample(u, local)) return false;
         s.p = place.to_world.point(local.p);
-        s.p_error = place.to_world.point_error(local.p, local.p_error);
+        s.p_error = error_of(local);
         // Normals keep their side, whether the map mirrors or not (model/surface.h).
         Vec3 const n = normalize(place.to_world.area_vector(local.n));
         s.n = (place.to_world.determinant() < 0.0f) != record.flip ? -n : n;
@@ -151,6 +154,14 @@ struct RoundEmitter : PartOfRecord {
     }
 
   private:
+    /// The bound of each map on the way to the world, not that of their product: what cancels in that does not in a ray's trip.
+    [[nodiscard]] Vec3 error_of(SeenSample const& local) const {
+        if (!instance) return place.to_world.point_error(local.p, local.p_error);
+        ShapeSample s;
+        s.p = local.p, s.p_error = local.p_error, s.n = local.n;
+        if (record.place) s = transformed(record.place->shape_to_group, s);
+        return transformed(instance->to_world, s).p_error;
+    }
     /// d(directions in the shape's space) / d(directions in the world).
     [[nodiscard]] float density(Vec3 w) const {
         if (place.volume_scale == 0.0f) return 1.0f;
@@ -165,8 +176,9 @@ struct PartEmitter : PartOfRecord {
     using PartOfRecord::area_pdf;
     using PartOfRecord::PartOfRecord;
     [[nodiscard]] Vec2 square(SurfaceHit const& hit) const {
-        return std::holds_alternative<TriangleMesh>(record.object->shape) ? triangle_to_square(hit.hit_uv)
-                                                                          : hit.hit_uv;
+        return within_square(std::holds_alternative<TriangleMesh>(record.object->shape)
+                                 ? triangle_to_square(hit.hit_uv)
+                                 : hit.hit_uv);
     }
     // Never asked for: nothing is drawn but by area.
     [[nodiscard]] static Vec2 square(Vec3) { return {0, 0}; }

@@ -1,4 +1,5 @@
 #include "world/estimate.h"
+#include "light_table.h"
 
 #include "image/image.h"
 #include "image/peek.h"
@@ -156,6 +157,16 @@ std::uint64_t picture_bytes(Scene const& scene) {
     return bytes;
 }
 
+/// Tables of where textured emitters are bright.
+std::uint64_t light_picture_bytes(Scene const& scene, Appearances const& all) {
+    bool textured = false;
+    for (Group const& g : scene.groups)
+        for (Object const& o : g.objects)
+            textured = textured || (o.light && (o.light->image.valid() || o.light->texture.valid()));
+    constexpr std::uint64_t kCell = 16;
+    return textured ? std::min(times(all.emitters, 256 * 256), kMostPictureCells) * kCell : 0;
+}
+
 }  // namespace
 
 std::uint64_t held_bytes(Scene const& scene) {
@@ -173,6 +184,7 @@ std::uint64_t estimated_bytes(Scene const& scene) {
         for (Object const& o : g.objects) bytes = plus(bytes, plus(made_of(o.shape), kObject));
     bytes = plus(bytes, picture_bytes(scene));
     Appearances const all = appearances(scene);
+    bytes = plus(bytes, light_picture_bytes(scene, all));
     bytes = plus(bytes, times(all.instances, kInstance));
     return plus(bytes, times(plus(all.emitters, scene.lights.size()), kLight));
 }

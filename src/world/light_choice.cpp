@@ -41,8 +41,7 @@ float LightTable::pmf(Receiver const& to, LightChoice how, std::uint32_t entry) 
             return static_cast<float>(1 / static_cast<double>(entries.size()));
         case LightChoice::Bvh: {
             float const share = boundless_share();
-            if (entries[entry].boundless)
-                return by_power.pmf(entry) > 0.0f ? share / static_cast<float>(boundless.size()) : 0.0f;
+            if (entries[entry].boundless) return share / static_cast<float>(boundless.size());
             return (1.0f - share) * tree.pmf(to, entry);
         }
     }

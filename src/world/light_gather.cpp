@@ -44,6 +44,8 @@ bool is_parallelogram(Corner const& a, Corner const& b, Corner const& c, Corner 
     Vec3 const gap = abs(a.p + d.p - b.p - c.p);
     Vec3 const rounding = 16.0f * kMachineEpsilon * (abs(a.p) + abs(b.p) + abs(c.p) + abs(d.p));
     if (gap.x > rounding.x || gap.y > rounding.y || gap.z > rounding.z) return false;
+    // Far from the origin that would let small shapes be anything.
+    if (length(gap) > 1e-4f * min(length(b.p - a.p), length(c.p - a.p))) return false;
     if (!textured) return true;
     Vec2 const uv = a.uv + d.uv - b.uv - c.uv;
     return std::abs(uv.x) <= 1e-5f && std::abs(uv.y) <= 1e-5f;
@@ -148,16 +150,21 @@ std::optional<LightPlace> light_place(AffineMap const& to_world) {
     return place;
 }
 
-BoxLight box_light(Box const& box, AffineMap const& map, bool inwards) {
+BoxLight box_light(Box const& box, AffineMap const& map, ObjectRecord const& r, InstanceRecord const* where) {
     BoxLight b;
     Vec3 const size = box.hi - box.lo;
     b.corner = map.point(box.lo);
-    Vec3 error = map.point_error(box.lo, {0, 0, 0});
+    // Each map on the way has its bound; that of their product may cancel.
+    Vec3 error{0, 0, 0};
+    for (std::uint32_t face = 0; face < 6; ++face)
+        for (int i = 0; i < 4; ++i)
+            error =
+                max(error,
+                    corner(r, where, face, {static_cast<float>(i & 1), static_cast<float>(i >> 1)}).p_error);
     for (int i = 0; i < 3; ++i) {
         Vec3 edge{0, 0, 0};
         edge[i] = size[i];
         b.edge[static_cast<std::size_t>(i)] = map.vector(edge);
-        error = max(error, map.point_error(box.lo + edge, {0, 0, 0}));
     }
     for (std::size_t i = 0; i < 3; ++i) {
         Vec3 const across = cross_accurate(b.edge[(i + 1) % 3], b.edge[(i + 2) % 3]);
@@ -168,7 +175,7 @@ BoxLight box_light(Box const& box, AffineMap const& map, bool inwards) {
     }
     b.p_error =
         3.0f * error + gamma_bound(8) * (abs(b.corner) + abs(b.edge[0]) + abs(b.edge[1]) + abs(b.edge[2]));
-    b.inwards = inwards;
+    b.inwards = r.flip;
     b.right_angled = is_right_angle(b.edge[0], b.edge[1]) && is_right_angle(b.edge[1], b.edge[2]) &&
                      is_right_angle(b.edge[2], b.edge[0]);
     return b;
@@ -185,6 +192,7 @@ struct Gatherer {
     Assets& assets;
     WorldParts& parts;
     LightTable& lights;
+    int most_cells;  // along a side of a picture's table
     std::vector<float> powers;
     std::vector<LightBounds> bounds;
 
@@ -209,7 +217,7 @@ struct Gatherer {
         LightEntry const fresh{.record = index, .instance = instance};
         if (auto const* box = std::get_if<Box>(&r.object->shape); box && !e.textured()) {
             named(count);
-            add_box(fresh, *box, map_of(r, where), r.flip, e);
+            add_box(fresh, *box, r, where, e);
             return;
         }
         bool const round = std::holds_alternative<Sphere>(r.object->shape) ||
@@ -242,8 +250,10 @@ struct Gatherer {
         return intensity * kPi * (e.light->two_sided ? 2.0f : 1.0f);
     }
 
-    void add_box(LightEntry entry, Box const& box, AffineMap const& map, bool inwards, Emitter const& e) {
-        BoxLight const b = box_light(box, map, inwards);
+    void add_box(LightEntry entry, Box const& box, ObjectRecord const& r, InstanceRecord const* where,
+                 Emitter const& e) {
+        AffineMap const map = map_of(r, where);
+        BoxLight const b = box_light(box, map, r, where);
         entry.shape = LightShape::Box;
         entry.more = static_cast<std::uint32_t>(lights.boxes.size());
         float const area = 2.0f * (b.area[0] + b.area[1] + b.area[2]);
@@ -337,7 +347,9 @@ struct Gatherer {
             picture.duv1 = flat->next1.uv - flat->at.uv;
             picture.duv2 = flat->next2.uv - flat->at.uv;
         }
-        auto const [nx, ny] = resolution(picture, flat != nullptr, part_count(r), e);
+        auto const [columns, rows] = resolution(picture, flat != nullptr, part_count(r), e);
+        auto const nx = static_cast<std::size_t>(columns);
+        auto const ny = static_cast<std::size_t>(rows);
         // Level times area element, by weights 1 2 1 over each cell and its edges: no lit point has density 0.
         auto const value = [&](Vec2 u) -> float {
             ShapeSample s;
@@ -351,30 +363,29 @@ struct Gatherer {
             }
             return s.pdf_area > 0.0f ? emission_level(assets, e, s.p, s.uv) / s.pdf_area : 0.0f;
         };
-        std::vector<float> nodes(static_cast<std::size_t>((2 * nx + 1) * (2 * ny + 1)));
-        for (int y = 0; y <= 2 * ny; ++y)
-            for (int x = 0; x <= 2 * nx; ++x)
-                nodes[static_cast<std::size_t>(y * (2 * nx + 1) + x)] =
-                    value({static_cast<float>(x) / static_cast<float>(2 * nx),
-                           static_cast<float>(y) / static_cast<float>(2 * ny)});
-        std::vector<float> cells(static_cast<std::size_t>(nx * ny));
+        std::vector<float> nodes((2 * nx + 1) * (2 * ny + 1));
+        for (std::size_t y = 0; y <= 2 * ny; ++y)
+            for (std::size_t x = 0; x <= 2 * nx; ++x)
+                nodes[y * (2 * nx + 1) + x] = value({static_cast<float>(x) / static_cast<float>(2 * nx),
+                                                     static_cast<float>(y) / static_cast<float>(2 * ny)});
+        std::vector<float> cells(nx * ny);
         double sum = 0;
         float least = kInfinity;
         float greatest = 0;
-        for (int y = 0; y < ny; ++y)
-            for (int x = 0; x < nx; ++x) {
+        for (std::size_t y = 0; y < ny; ++y)
+            for (std::size_t x = 0; x < nx; ++x) {
                 float cell = 0;
-                for (int j = 0; j <= 2; ++j)
-                    for (int i = 0; i <= 2; ++i)
+                for (std::size_t j = 0; j <= 2; ++j)
+                    for (std::size_t i = 0; i <= 2; ++i)
                         cell += (i == 1 ? 2.0f : 1.0f) * (j == 1 ? 2.0f : 1.0f) / 16.0f *
-                                nodes[static_cast<std::size_t>((2 * y + j) * (2 * nx + 1) + 2 * x + i)];
-                cells[static_cast<std::size_t>(y * nx + x)] = cell;
+                                nodes[(2 * y + j) * (2 * nx + 1) + 2 * x + i];
+                cells[y * nx + x] = cell;
                 sum += static_cast<double>(cell);
                 least = std::fmin(least, cell);
                 greatest = std::fmax(greatest, cell);
             }
-        double const mean = sum / (static_cast<double>(nx) * ny);
-        if (greatest > 1.5f * least) picture.distribution = Distribution2D(cells, nx, ny);
+        double const mean = sum / static_cast<double>(nx * ny);
+        if (greatest > 1.5f * least) picture.distribution = Distribution2D(cells, columns, rows);
         // Flat parts find their place in the picture by it, even where it is even.
         if (flat || !picture.distribution.empty()) {
             entry.picture = static_cast<std::uint32_t>(lights.pictures.size());
@@ -386,7 +397,6 @@ struct Gatherer {
     /// About a cell a texel, within bounds.
     std::array<int, 2> resolution(LightPicture const& p, bool flat, std::uint32_t parts_of_object,
                                   Emitter const& e) const {
-        constexpr int kMost = 256;
         constexpr float kProcedural = 64;
         float const crowd = std::sqrt(static_cast<float>(parts_of_object));
         float nx = kProcedural / crowd;
@@ -398,7 +408,7 @@ struct Gatherer {
             ny = flat ? length_of(p.duv2 * texels) : texels.y / crowd;
         }
         auto const cells = [&](float n) {
-            return std::isfinite(n) ? std::clamp(static_cast<int>(std::ceil(n)), 1, kMost) : kMost;
+            return std::isfinite(n) ? std::clamp(static_cast<int>(std::ceil(n)), 1, most_cells) : most_cells;
         };
         return {cells(std::fmin(nx, 1e4f)), cells(std::fmin(ny, 1e4f))};
     }
@@ -414,14 +424,17 @@ struct Gatherer {
         lights.data.push_back(prepare(light, assets));
         LightData const& data = lights.data.back();
         check_emission(scene, light.where, data.emission);
+        if (!std::isfinite(data.emission.max_value() * data.image_scale * std::fmax(1.0f, data.peak)))
+            scene.fail(light.where,
+                       "the light's picture emits more than floats can hold; make its scale smaller");
         if (is_infinite(light)) lights.infinite.push_back(LightId{index});
         lights.entry_of_light.push_back(static_cast<std::uint32_t>(lights.entries.size()));
         LightEntry entry{.part = index};
         entry.shape = LightShape::NoSurface;
         auto const b = light_bounds(light, data, assets);
         float const phi = power(light, data, assets, sphere);
-        entry.boundless = !b;
-        if (!b && phi > 0.0f) lights.boundless.push_back(static_cast<std::uint32_t>(lights.entries.size()));
+        entry.boundless = !b && phi > 0.0f;
+        if (entry.boundless) lights.boundless.push_back(static_cast<std::uint32_t>(lights.entries.size()));
         add(entry, phi, b.value_or(LightBounds{}));
     }
 };
@@ -466,9 +479,28 @@ std::uint32_t add_emitter(Scene const& scene, Assets& assets, LightTable& lights
     return static_cast<std::uint32_t>(lights.emitters.size() - 1);
 }
 
+namespace {
+
+/// All tables together hold kMostPictureCells at most (world/estimate.cpp counts on it), and each 256 x 256.
+int most_cells(WorldParts const& parts, LightTable const& lights) {
+    double textured = 0;
+    auto const count = [&](std::uint32_t first, std::uint32_t n) {
+        for (std::uint32_t r = first; r < first + n; ++r)
+            if (parts.records[r].emits() && lights.emitters[parts.records[r].emitter].textured())
+                textured += part_count(parts.records[r]);
+    };
+    count(parts.first_record[0], parts.record_count[0]);
+    for (InstanceRecord const& i : parts.instances) count(i.first_record, parts.count_from(i.first_record));
+    if (textured == 0) return 1;
+    return static_cast<int>(
+        std::clamp(std::sqrt(static_cast<double>(kMostPictureCells) / textured), 1.0, 256.0));
+}
+
+}  // namespace
+
 void gather_lights(Scene& scene, Assets& assets, WorldParts& parts, LightTable& lights,
                    BoundingSphere const& sphere) {
-    Gatherer g{scene, assets, parts, lights, {}, {}};
+    Gatherer g{scene, assets, parts, lights, most_cells(parts, lights), {}, {}};
     g.add_appearance(parts.first_record[0], parts.record_count[0], kNoInstance);
     for (std::uint32_t i = 0; i < parts.instances.size(); ++i) {
         InstanceRecord& instance = parts.instances[i];

@@ -75,6 +75,8 @@ struct LightPicture {
     Vec2 uv{0, 0}, duv1{0, 0}, duv2{0, 0};
 };
 
+inline constexpr std::uint64_t kMostPictureCells = 1u << 21;
+
 class LightTable {
   public:
     std::vector<Emitter> emitters;

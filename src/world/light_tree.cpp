@@ -196,7 +196,7 @@ class LightTreeBuilder {
 };
 
 LightTree::LightTree(std::span<LightBounds const> bounds) {
-    LightTreeBuilder(*this, bounds);
+    LightTreeBuilder const builder(*this, bounds);
     nodes_.shrink_to_fit();
 }
 

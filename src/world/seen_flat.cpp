@@ -42,10 +42,9 @@ SphericalTriangle triangle(LightEntry const& e, Vec3 corner) {
 Vec2 coordinates(LightEntry const& e, Vec3 p) {
     // By Cramer's rule in the plane.
     Vec3 const w = p - e.corner;
-    Vec3 const n = cross(e.edge1, e.edge2);
-    float const nn = dot(n, n);
-    return {clamp(dot(cross(w, e.edge2), n) / nn, 0.0f, 1.0f),
-            clamp(dot(cross(e.edge1, w), n) / nn, 0.0f, 1.0f)};
+    float const area = dot(cross(e.edge1, e.edge2), e.normal);
+    return {clamp(dot(cross(w, e.edge2), e.normal) / area, 0.0f, 1.0f),
+            clamp(dot(cross(e.edge1, w), e.normal) / area, 0.0f, 1.0f)};
 }
 
 float seen_solid_angle(Vec3 corner, Vec3 edge1, Vec3 edge2, bool right_angled) {

@@ -152,3 +152,56 @@ TEST_CASE("light strategies: ten million watts, and no area at all") {
     double const e = polygon_irradiance({0, 0, 0}, {{-.5, .5, 1}, {.5, .5, 1}, {.5, -.5, 1}, {-.5, -.5, 1}});
     check_mean(world, settings(direct({})), 64, radiance * std::abs(e) / kPiD);
 }
+
+TEST_CASE("light strategies: an instance that moves its emitter back from afar does not shade it") {
+    // The product of both maps is a small move; a ray's trip through them is not.
+    for (Shape const& shape : {Shape{Sphere{}}, Shape{Box{{-1, -1, -1}, {1, 1, 1}}}, Shape{Disk{}}}) {
+        Scene scene = bench({0, 0, 0});
+        GroupId const group = scene.add(Group{});
+        Object& o = add(scene.groups[group.value], shape);
+        o.to_group = translate(3000, 0, 0) * rotation(180, 1, 0, 0);
+        o.light = white(1);
+        scene.world().instances.push_back({group, rows(translate(-3000, 0, 10)), {}});
+        World const world = compile(scene);
+        double const expected =
+            std::holds_alternative<Sphere>(shape) ? kPiD / 100
+            : std::holds_alternative<Disk>(shape)
+                ? kPiD / 101
+                : std::abs(polygon_irradiance({0, 0, 0}, {{-1, -1, 9}, {1, -1, 9}, {1, 1, 9}, {-1, 1, 9}}));
+        for (ShapeSampling const shapes : {ShapeSampling::SolidAngle, ShapeSampling::Area})
+            check_mean(world, settings(direct({LightChoice::Bvh, shapes})), 64, expected / kPiD);
+    }
+}
+
+TEST_CASE("light strategies: a small trapezoid far from the origin is no parallelogram") {
+    // At 1000 a float's last bit is as large as a hundredth of this lamp's side.
+    Vec3 const at{1000, 500, 0};
+    Scene scene = bench(at);
+    scene.world().objects[0].to_group = translate(1000, 500, 0);
+    Vec3 const p[4] = {at + Vec3{-0.02f, -0.01f, 0.05f}, at + Vec3{-0.005f, 0.01f, 0.05f},
+                       at + Vec3{0.005f, 0.01f, 0.05f}, at + Vec3{0.02f, -0.01f, 0.05f}};
+    add(scene, rectangle(p[0], p[1], p[2], p[3])).light = white(1, true);
+    World const world = compile(scene);
+    CHECK(world.counts().lights == 2);
+    double const e = std::abs(
+        polygon_irradiance(doubles(at), {doubles(p[0]), doubles(p[1]), doubles(p[2]), doubles(p[3])}));
+    check_mean(world, settings(direct({})), 64, e / kPiD);
+}
+
+TEST_CASE("light strategies: the sky through a portal and through holes beyond it") {
+    Scene scene = bench({0, 0, 0});
+    InfiniteLight through;
+    // Four corners; the light comes from above: (p3 - p0) x (p1 - p0) is +z.
+    through.portal = std::array<Vec3, 4>{Vec3{-1, -1, 1}, Vec3{-1, 1, 1}, Vec3{1, 1, 1}, Vec3{1, -1, 1}};
+    scene.add(Light{through, {}, {}});
+    MixMaterial half;
+    half.a = material(scene, InterfaceMaterial{});
+    half.b = diffuse(scene, 0.0f);
+    half.amount = scene.add(Texture{ConstantFloatTexture{0.5f}, {}});
+    add(scene, floor_quad(40, 2), material(scene, half));
+    World const world = compile(scene);
+    double const e =
+        std::abs(polygon_irradiance({0, 0, 0}, {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}));
+    for (DirectStrategy const strategy : {DirectStrategy::Light, DirectStrategy::Bsdf, DirectStrategy::Mis})
+        check_mean(world, settings(direct({}, strategy)), 64, 0.5 * e / kPiD);
+}

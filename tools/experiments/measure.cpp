@@ -203,6 +203,7 @@ std::vector<Estimate> means_by_pixel(Setup const& setup, std::string const& dire
             spread[i].add((p.rgb[i][0] + p.rgb[i][1] + p.rgb[i][2]) / 3);
     }
     std::vector<Estimate> e;
+    e.reserve(spread.size());
     for (Spread const& s : spread) e.push_back({s.mean(), s.error()});
     return e;
 }

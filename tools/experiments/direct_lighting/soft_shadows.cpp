@@ -41,6 +41,7 @@ void sheet(Lab const& lab, std::string const& file, std::string const& alt,
            std::vector<Trial> const& trials) {
     std::uint64_t const many = lab.quick ? 64 : 256;
     std::vector<std::string> columns;
+    columns.reserve(std::size(kCounts) + 1);
     for (int const n : kCounts) columns.push_back(std::to_string(n));
     columns.push_back(std::to_string(many));
     std::vector<SheetRow> rows;
