@@ -101,7 +101,7 @@ TEST_CASE("emission: every shape under transforms lights a floor as Lambert says
             Sent const sent = send(world, 0.8, n);
             double const expected =
                 quadrature([&](D3 p) { return e.irradiance(turned(e, where.all()), p); }, 0.8);
-            auto const on_floor = agrees(sent.landed, expected, 0.04 * (kSanitizerShare > 1 ? 4 : 1), 0.001);
+            auto const on_floor = agrees(sent.landed, expected, 0.04, 0.001);
             CHECK_MESSAGE(on_floor, on_floor);
             auto const in_all = agrees(sent.power, static_cast<double>(world.total_power()), 0.01, 0.001);
             CHECK_MESSAGE(in_all, in_all);
