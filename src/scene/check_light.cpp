@@ -19,8 +19,9 @@ void check_direction(Check const& c, Vec3 from, Vec3 to) {
 void check_portal(Check const& c, std::array<Vec3, 4> const& corners) {
     std::array<std::array<double, 3>, 4> side{};  // from each corner to the next
     std::array<double, 4> length{};
+    for (Vec3 const corner : corners)
+        c.require(is_finite(corner), "the light's portal must have finite corners");
     for (std::size_t i = 0; i < 4; ++i) {
-        c.require(is_finite(corners[i]), "the light's portal must have finite corners");
         for (int k = 0; k < 3; ++k)
             side[i][static_cast<std::size_t>(k)] =
                 static_cast<double>(corners[(i + 1) % 4][k]) - static_cast<double>(corners[i][k]);

@@ -357,7 +357,7 @@ TEST_CASE(
     CHECK(static_cast<double>(power(l.light(), l.data, l.assets, scene)) ==
           doctest::Approx(flux).epsilon(0.05));
     INFO(caught.mean(), " +- ", caught.half_width(), ", ", seen.mean(), " +- ", seen.half_width());
-    CHECK(caught.half_width() < 0.02 * seen.mean());
+    CHECK(caught.half_width() < (kSanitizerShare > 1 ? 0.06 : 0.02) * seen.mean());
     CHECK(std::abs(caught.mean() - seen.mean()) <= std::hypot(caught.half_width(), seen.half_width()));
     // Without a picture it is exact.
     Lit const plain(through(kCorners, false, 3));

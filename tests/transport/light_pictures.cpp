@@ -102,7 +102,7 @@ TEST_CASE("light pictures: pictures and textures on every shape, by area and by 
             place(scene, e, placements()[e.name.size() % placements().size()], 1, light);
             World const world = compile(scene);
             check_same(
-                {{"area", &world, settings(direct(ShapeSampling::Area)), 256},
+                {{"area", &world, settings(direct(ShapeSampling::Area)), 2048},
                  {"picture", &world, settings(direct(ShapeSampling::SolidAngle)), 64},
                  {"mis", &world, settings(direct(ShapeSampling::SolidAngle, DirectStrategy::Mis)), 64}});
         }

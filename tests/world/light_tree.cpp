@@ -79,6 +79,8 @@ TEST_CASE("light tree: pmf sums to 1, is what sample() does, and is above 0 wher
     int impossible = 0;
     int tests = 0;
     double worst = 1;
+    double mean_sum = 0;
+    int sums = 0;
     for (int const n : sizes) {
         auto const all = lights(r, n);
         LightTree const tree(all);
@@ -97,16 +99,20 @@ TEST_CASE("light tree: pmf sums to 1, is what sample() does, and is above 0 wher
                 CHECK_FALSE(tree.sample(to, r.unit()).has_value());
                 continue;
             }
-            CHECK(sum == doctest::Approx(1).epsilon(1e-5));
+            // What a node may send and none of its lights does is drawn in vain.
+            CHECK(sum <= 1 + 1e-5);
+            mean_sum += sum;
+            ++sums;
             auto const draws = static_cast<int>(test::samples(30000, 300000));
-            std::vector<double> counts(all.size());
+            std::vector<double> counts(all.size() + 1);
             for (int k = 0; k < draws; ++k) {
                 auto const c = tree.sample(to, static_cast<double>(r.unit()));
-                REQUIRE(c.has_value());
-                counts[c->light] += 1;
+                counts[c ? c->light : all.size()] += 1;
+                if (!c) continue;
                 CHECK(static_cast<double>(c->pmf) == doctest::Approx(pmf[c->light]).epsilon(1e-5));
             }
-            for (double& p : pmf) p *= draws / sum;
+            pmf.push_back(sum < 1 - 1e-5 ? 1 - sum : 0.0);
+            for (double& p : pmf) p *= draws;
             int possible = 0;
             for (double const p : pmf) possible += p >= 5;
             if (possible < 2) continue;
@@ -116,6 +122,7 @@ TEST_CASE("light tree: pmf sums to 1, is what sample() does, and is above 0 wher
     }
     CHECK(impossible == 0);
     CHECK(tests > 50);
+    CHECK(mean_sum / sums > 0.99);
     CHECK(worst >= sidak(tests));
 }
 
