@@ -273,7 +273,8 @@ void rays_of(std::string const& name, std::shared_ptr<Rays> const& r) {
     auto lights = std::make_shared<std::vector<LightSample>>();
     for (std::size_t i = 0; i < r->hits.size(); ++i)
         lights->push_back(
-            r->world.sample_light(Receiver{r->hits[i].s.p}, {}, squares()[i].y, squares()[i], Wavelengths::rgb())
+            r->world
+                .sample_light(Receiver{r->hits[i].s.p}, {}, squares()[i].y, squares()[i], Wavelengths::rgb())
                 .value_or(LightSample{}));
     add("world/transmittance/" + name, r->hits, [r, lights, i = 0u](SurfaceHit const& hit) mutable {
         RayStats s;

@@ -45,8 +45,8 @@ LightSampling light_sampling(Params& p) {
     std::size_t const choice = p.choice("lightsampler", {"bvh", "power", "uniform", "exhaustive"}, 0);
     if (choice == 3) p.note("light sampler \"exhaustive\" is not built: \"bvh\" stands in");
     l.choice = kChoices[choice];
-    l.shapes = kShapes[p.choice(
-        "shapesampling", {"solidangle", "area", "visiblearea", "projected", "visibleunweighed"}, 0)];
+    l.shapes = kShapes[p.choice("shapesampling",
+                                {"solidangle", "area", "visiblearea", "projected", "visibleunweighed"}, 0)];
     return l;
 }
 

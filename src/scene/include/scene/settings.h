@@ -64,11 +64,11 @@ enum class LightChoice : std::uint8_t {
 };
 /// Where on an emitting shape a point is drawn.
 enum class ShapeSampling : std::uint8_t {
-    SolidAngle,      // uniform in what the receiver sees of it, where that can be done
-    Area,            // uniform over the whole surface
-    VisibleArea,     // box: the visible faces, chosen by area, uniform over each
-    Projected,       // box: the visible faces, chosen by the area that they show to the receiver
-    VisibleUnweighed // box: one visible face is as likely as another, and the density says otherwise: biased, and kept to show it
+    SolidAngle,   // uniform in what the receiver sees of it, where that can be done
+    Area,         // uniform over the whole surface
+    VisibleArea,  // box: the visible faces, chosen by area, uniform over each
+    Projected,    // box: the visible faces, chosen by the area that they show to the receiver
+    VisibleUnweighed  // box: one visible face is as likely as another, and the density says otherwise: biased, and kept to show it
 };
 struct LightSampling {
     LightChoice choice = LightChoice::Bvh;
