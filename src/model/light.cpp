@@ -89,17 +89,6 @@ LightBounds bounds_at_point(LightData const& d, float intensity, Vec3 axis, floa
     return b;
 }
 
-float volume_scale(Transform const& to_world) {
-    Vec3 const x = to_world.vector({1, 0, 0});
-    Vec3 const y = to_world.vector({0, 1, 0});
-    Vec3 const z = to_world.vector({0, 0, 1});
-    float const scale2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3.0f;
-    auto const small = [&](float v) { return std::abs(v) <= 1e-6f * scale2; };
-    bool const similar = small(dot(x, y)) && small(dot(y, z)) && small(dot(z, x)) &&
-                         small(dot(x, x) - scale2) && small(dot(y, y) - scale2) && small(dot(z, z) - scale2);
-    return similar ? 0.0f : abs_dot(x, cross_accurate(y, z));
-}
-
 bool is_infinite(Light const& light) {
     return match(light.kind, []<class K>(K const&) { return EnvironmentModel<K>; });
 }

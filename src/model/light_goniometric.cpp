@@ -21,7 +21,7 @@ Spectrum intensity(GoniometricLight const& l, LightData const& d, Assets const& 
 }
 /// Mean over a texel of how much a transform that changes angles widens solid angles; 1 where it does not.
 float widening(LightData const& d, int side, Texel at) {
-    if (d.volume_scale == 0.0f) return 1.0f;
+    if (d.direction_scale == 0.0f) return 1.0f;
     int const n = std::max(2, 256 / side);
     float sum = 0;
     for (int j = 0; j < n; ++j)
@@ -48,7 +48,7 @@ LightData prepare(GoniometricLight const& l, Light const& light, Assets& assets)
     LightData d;
     d.to_world = placed(light, assets);
     d.position = d.to_world.point({0, 0, 0});
-    d.volume_scale = volume_scale(d.to_world);
+    d.direction_scale = direction_scale(d.to_world);
     Image const& image = assets.pyramid(l.image).level(0);
     int const side = image.width();
     if (image.height() != side)

@@ -53,28 +53,17 @@ Spectrum image_radiance(LightData const& d, Vec3 rgb, Wavelengths const& lambda)
 
 std::shared_ptr<EnvironmentTable const> environment_table(EnvironmentMapping mapping,
                                                           Pyramid const& picture) {
-    Image const& image = picture.level(0);
-    int const w = image.width();
-    int const h = image.height();
-    std::vector<float> f(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
-    // The radiance is bilinear between texel centres, the table constant over texels: a texel's weight is the mean
-    // of what bilinear interpolation takes over it, by a 3 x 3 grid that reaches its corners, so that no lit point has density 0.
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) {
-            float value = 0;
-            for (int j = 0; j <= 2; ++j)
-                for (int i = 0; i <= 2; ++i) {
-                    Vec2 const st{
-                        (static_cast<float>(x) + 0.5f * static_cast<float>(i)) / static_cast<float>(w),
-                        (static_cast<float>(y) + 0.5f * static_cast<float>(j)) / static_cast<float>(h)};
-                    Vec3 const rgb = environment_rgb(mapping, picture, st);
-                    float const weight = (i == 1 ? 2.0f : 1.0f) * (j == 1 ? 2.0f : 1.0f) / 16.0f;
-                    value += weight * (rgb.x + rgb.y + rgb.z) / 3.0f;
-                }
-            if (mapping == EnvironmentMapping::LatLong)
-                value *= std::sin((static_cast<float>(y) + 0.5f) / static_cast<float>(h) * kPi);
-            f[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)] =
-                value;
+    int const w = picture.level(0).width();
+    int const h = picture.level(0).height();
+    // The radiance is bilinear between texel centres, the table constant over texels.
+    std::vector<float> f = cell_means(w, h, [&](Vec2 st) {
+        Vec3 const rgb = environment_rgb(mapping, picture, st);
+        return (rgb.x + rgb.y + rgb.z) / 3.0f;
+    });
+    if (mapping == EnvironmentMapping::LatLong)
+        for (std::size_t i = 0; i < f.size(); ++i) {
+            auto const y = static_cast<float>(i / static_cast<std::size_t>(w));
+            f[i] *= std::sin((y + 0.5f) / static_cast<float>(h) * kPi);
         }
     return std::make_shared<EnvironmentTable>(EnvironmentTable{Distribution2D(f, w, h)});
 }
@@ -137,7 +126,7 @@ std::optional<LightSample> sample_portal(InfiniteLight const& l, LightData const
 LightData prepare(InfiniteLight const& l, Light const& light, Assets& assets) {
     LightData d;
     d.to_world = placed(light, assets);
-    d.volume_scale = volume_scale(d.to_world);
+    d.direction_scale = direction_scale(d.to_world);
     double const pi = static_cast<double>(kPi);
     if (!l.image.valid()) {
         // Illuminance of a surface facing a sky of luminance 1 is pi (pbrt-v4).

@@ -90,14 +90,9 @@ LightBounds bounds_at_point(LightData const& d, float intensity);
 inline constexpr float kSharpEdge = 0.01f;
 LightBounds bounds_at_point(LightData const& d, float intensity, Vec3 axis, float theta_o, float theta_e);
 
-/// |det M|, or 0 where M maps balls to balls and so keeps densities over directions.
-float volume_scale(Transform const& to_world);
-/// How a density over directions of light space changes on the way to the world: d(local) / d(world) = |M w|^3 / |det M|,
-/// which is 1 for rotations and uniform scales.
+/// How a density over directions of light space changes on the way to the world (math/transform.h).
 inline float direction_density(LightData const& d, Vec3 local) {
-    if (d.volume_scale == 0.0f) return 1.0f;
-    float const stretch = length(d.to_world.vector(local));
-    return stretch * stretch * stretch / d.volume_scale;
+    return d.direction_scale == 0.0f ? 1.0f : direction_density(d.direction_scale, d.to_world.vector(local));
 }
 /// A direction of the world, in light space.
 inline Vec3 local_direction(LightData const& d, Vec3 w) { return normalize(d.to_world.vector_inverse(w)); }

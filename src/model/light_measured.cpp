@@ -123,7 +123,7 @@ LightData prepare(MeasuredLight const& l, Light const& light, Assets& assets) {
     d.to_world = placed(light, assets);
     d.position = d.to_world.point({0, 0, 0});
     d.direction = normalize(d.to_world.vector({0, 0, -1}));
-    d.volume_scale = volume_scale(d.to_world);
+    d.direction_scale = direction_scale(d.to_world);
     EnvironmentTable t;
     t.vertical = refined(l.table.vertical);
     t.horizontal = refined(l.table.horizontal);
@@ -171,7 +171,7 @@ EmissionDensity emission_density(MeasuredLight const&, LightData const& d, Bound
 
 std::optional<LightBounds> light_bounds(MeasuredLight const& l, LightData const& d, Assets const&) {
     float const intensity = d.emission.max_value() * d.peak;
-    if (d.volume_scale != 0.0f) return bounds_at_point(d, intensity);
+    if (d.direction_scale != 0.0f) return bounds_at_point(d, intensity);
     // Most lamps light one side: up to the angle after the last one where any plane is lit.
     std::size_t const n = l.table.vertical.size();
     std::size_t last = 0;

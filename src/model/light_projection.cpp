@@ -67,7 +67,7 @@ LightData prepare(ProjectionLight const& l, Light const& light, Assets& assets) 
     d.to_world = placed(light, assets);
     d.position = d.to_world.point({0, 0, 0});
     d.direction = normalize(d.to_world.vector({0, 0, 1}));
-    d.volume_scale = volume_scale(d.to_world);
+    d.direction_scale = direction_scale(d.to_world);
     Image const& image = assets.pyramid(l.image).level(0);
     int const width = image.width();
     int const height = image.height();
@@ -121,7 +121,7 @@ EmissionDensity emission_density(ProjectionLight const&, LightData const& d, Bou
 std::optional<LightBounds> light_bounds(ProjectionLight const&, LightData const& d, Assets const&) {
     float const intensity = d.emission.max_value() * d.peak;
     // A transform that changes angles would change those of the window as well.
-    if (d.volume_scale != 0.0f) return bounds_at_point(d, intensity);
+    if (d.direction_scale != 0.0f) return bounds_at_point(d, intensity);
     float const corner = std::atan(std::sqrt(sqr(d.window.x) + sqr(d.window.y)));
     return bounds_at_point(d, intensity, d.direction, corner, kSharpEdge);
 }

@@ -60,7 +60,7 @@ float density(LightData const& d, Vec3 local) {
 LightData prepare(SunSkyLight const& l, Light const& light, Assets& assets) {
     LightData d;
     d.to_world = placed(light, assets);
-    d.volume_scale = volume_scale(d.to_world);
+    d.direction_scale = direction_scale(d.to_world);
     auto s = std::make_shared<SunSky>();
     Vec3 const sun = normalize(l.sun_direction / max_component(abs(l.sun_direction)));
     s->sky = make_sky(l.turbidity, sun);

@@ -164,8 +164,8 @@ struct RoundEmitter : PartOfRecord {
     }
     /// d(directions in the shape's space) / d(directions in the world).
     [[nodiscard]] float density(Vec3 w) const {
-        if (place.volume_scale == 0.0f) return 1.0f;
-        return direction_density(place.volume_scale,
+        if (place.direction_scale == 0.0f) return 1.0f;
+        return direction_density(place.direction_scale,
                                  place.to_world.vector(normalize(place.to_shape.vector(w))));
     }
 };

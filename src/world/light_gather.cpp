@@ -145,8 +145,7 @@ std::optional<LightPlace> light_place(AffineMap const& to_world) {
     LightPlace place;
     place.to_world = to_world;
     place.to_shape.m = t->inv;
-    place.volume_scale =
-        direction_scale(to_world.vector({1, 0, 0}), to_world.vector({0, 1, 0}), to_world.vector({0, 0, 1}));
+    place.direction_scale = direction_scale(to_world);
     return place;
 }
 
@@ -347,10 +346,8 @@ struct Gatherer {
             picture.duv1 = flat->next1.uv - flat->at.uv;
             picture.duv2 = flat->next2.uv - flat->at.uv;
         }
-        auto const [columns, rows] = resolution(picture, flat != nullptr, part_count(r), e);
-        auto const nx = static_cast<std::size_t>(columns);
-        auto const ny = static_cast<std::size_t>(rows);
-        // Level times area element, by weights 1 2 1 over each cell and its edges: no lit point has density 0.
+        auto const [nx, ny] = resolution(picture, flat != nullptr, part_count(r), e);
+        // Level times area element.
         auto const value = [&](Vec2 u) -> float {
             ShapeSample s;
             if (flat) {
@@ -363,29 +360,12 @@ struct Gatherer {
             }
             return s.pdf_area > 0.0f ? emission_level(assets, e, s.p, s.uv) / s.pdf_area : 0.0f;
         };
-        std::vector<float> nodes((2 * nx + 1) * (2 * ny + 1));
-        for (std::size_t y = 0; y <= 2 * ny; ++y)
-            for (std::size_t x = 0; x <= 2 * nx; ++x)
-                nodes[y * (2 * nx + 1) + x] = value({static_cast<float>(x) / static_cast<float>(2 * nx),
-                                                     static_cast<float>(y) / static_cast<float>(2 * ny)});
-        std::vector<float> cells(nx * ny);
+        std::vector<float> const cells = cell_means(nx, ny, value);
         double sum = 0;
-        float least = kInfinity;
-        float greatest = 0;
-        for (std::size_t y = 0; y < ny; ++y)
-            for (std::size_t x = 0; x < nx; ++x) {
-                float cell = 0;
-                for (std::size_t j = 0; j <= 2; ++j)
-                    for (std::size_t i = 0; i <= 2; ++i)
-                        cell += (i == 1 ? 2.0f : 1.0f) * (j == 1 ? 2.0f : 1.0f) / 16.0f *
-                                nodes[(2 * y + j) * (2 * nx + 1) + 2 * x + i];
-                cells[y * nx + x] = cell;
-                sum += static_cast<double>(cell);
-                least = std::fmin(least, cell);
-                greatest = std::fmax(greatest, cell);
-            }
-        double const mean = sum / static_cast<double>(nx * ny);
-        if (greatest > 1.5f * least) picture.distribution = Distribution2D(cells, columns, rows);
+        for (float const cell : cells) sum += static_cast<double>(cell);
+        auto const [least, greatest] = std::minmax_element(cells.begin(), cells.end());
+        double const mean = sum / static_cast<double>(cells.size());
+        if (*greatest > 1.5f * *least) picture.distribution = Distribution2D(cells, nx, ny);
         // Flat parts find their place in the picture by it, even where it is even.
         if (flat || !picture.distribution.empty()) {
             entry.picture = static_cast<std::uint32_t>(lights.pictures.size());

@@ -65,7 +65,7 @@ struct BoxLight {
 /// Where an analytic shape is, both ways.
 struct LightPlace {
     AffineMap to_world, to_shape;
-    float volume_scale = 0;  // |det to_world| where directions change their density, else 0
+    float direction_scale = 0;  // of to_world (math/transform.h)
 };
 
 /// A part with a picture or a texture: brightness over the square by which it is sampled by area (empty where it is even), and

@@ -389,7 +389,7 @@ TEST_CASE("bounds: no light goes beyond the angles, none is stronger, and they a
             widest = std::max(widest, angle);
             strongest = std::max(strongest, intensity[0]);
         }
-        if (reach < kPi && lit->data.volume_scale == 0) CHECK(widest > 0.7f * reach);
+        if (reach < kPi && lit->data.direction_scale == 0) CHECK(widest > 0.7f * reach);
         CHECK(strongest > 0.5f * b->intensity);
     }
 }

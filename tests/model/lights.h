@@ -35,6 +35,12 @@ struct Lit {
     [[nodiscard]] Spectrum radiance(Vec3 w, Wavelengths const& l = Wavelengths::rgb()) const {
         return environment_radiance(light(), data, assets, {}, w, l);
     }
+    [[nodiscard]] Spectrum radiance(Vec3 p, Vec3 w) const {
+        return environment_radiance(light(), data, assets, p, w, Wavelengths::rgb());
+    }
+    [[nodiscard]] double pdf(Vec3 p, Vec3 w) const {
+        return static_cast<double>(environment_pdf(light(), data, p, w));
+    }
     [[nodiscard]] double pdf(Vec3 w) const {
         return static_cast<double>(environment_pdf(light(), data, {}, w));
     }

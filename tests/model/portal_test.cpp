@@ -1,9 +1,5 @@
 // Environments seen through a portal: densities against counts, energy against Lambert's formula, rays sent in through it.
-#include "model/light.h"
-
-#include "image/write.h"
-#include "spectrum/color.h"
-#include "support.h"
+#include "lights.h"
 
 #include <doctest/doctest.h>
 
@@ -21,56 +17,14 @@ namespace {
 using Corners = std::array<Vec3, 4>;
 
 /// A picture of `side` x `side` texels, equal-area, with a bright spot and black texels.
-class SkyPicture {
-  public:
-    explicit SkyPicture(int side, float sun = 200)
-        : path_((std::filesystem::temp_directory_path() /
-                 ("nephroid_portal_" + std::to_string(::getpid()) + "_" + std::to_string(side) + ".pfm"))
-                    .string()) {
-        Image image(PixelFormat::Float, side, side, {"R", "G", "B"});
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                float const v = x % 9 == 4 ? 0.0f : 1 + static_cast<float>((x * 7 + y * 3) % 11) / 5;
-                bool const spot = std::abs(x - 3 * side / 4) < 2 && std::abs(y - side / 2) < 2;
-                for (int c = 0; c < 3; ++c)
-                    image.set(x, y, c, spot ? sun : v * (1 + 0.2f * static_cast<float>(c)));
-            }
-        write_pfm(path_, image);
-    }
-    ~SkyPicture() { std::filesystem::remove(path_); }
-    SkyPicture(SkyPicture const&) = delete;
-    SkyPicture& operator=(SkyPicture const&) = delete;
-    [[nodiscard]] std::vector<ImageFile> files() const { return {{path_, "", {}}}; }
-
-  private:
-    std::string path_;
-};
-
-struct Lit {
-    Scene scene;
-    Assets assets;
-    LightData data;
-
-    Lit(InfiniteLight const& kind, Mat4 const& to_world = {}, std::vector<ImageFile> images = {}) {
-        scene.images = std::move(images);
-        scene.add(Light{kind, to_world, {}});
-        assets = Assets(scene);
-        data = prepare(scene.lights[0], assets);
-    }
-    Lit(Lit const&) = delete;
-    Lit& operator=(Lit const&) = delete;
-    [[nodiscard]] Light const& light() const { return scene.lights[0]; }
-    [[nodiscard]] std::optional<LightSample> sample(Vec3 p, Vec2 u) const {
-        return sample_light(light(), data, assets, p, u, Wavelengths::rgb());
-    }
-    [[nodiscard]] double radiance(Vec3 p, Vec3 w) const {
-        return luminance_of(environment_radiance(light(), data, assets, p, w, Wavelengths::rgb()));
-    }
-    [[nodiscard]] double pdf(Vec3 p, Vec3 w) const {
-        return static_cast<double>(environment_pdf(light(), data, p, w));
-    }
-    static double luminance_of(Spectrum s) { return static_cast<double>(luminance({s[0], s[1], s[2]})); }
-};
+Picture sky_picture(int side) {
+    return Picture("portal", side, side, [side](int x, int y) {
+        float const v = x % 9 == 4 ? 0.0f : 1 + static_cast<float>((x * 7 + y * 3) % 11) / 5;
+        bool const spot = std::abs(x - 3 * side / 4) < 2 && std::abs(y - side / 2) < 2;
+        return spot ? Vec3(200) : v * Vec3{1, 1.2f, 1.4f};
+    });
+}
+double luminance_at(Lit const& l, Vec3 p, Vec3 w) { return luminance_of(l.radiance(p, w)); }
 
 InfiniteLight through(Corners const& corners, bool picture, float scale = 1) {
     InfiniteLight l;
@@ -149,7 +103,7 @@ double lambert(Corners const& corners, Vec3 p, Vec3 n) {
 }  // namespace
 
 TEST_CASE("through a portal: samples by the density, which integrates to 1 over the portal as it is seen") {
-    SkyPicture const picture(64);
+    Picture const picture = sky_picture(64);
     Lit const l(through(kCorners, true, 2), *rotate(40, 1, 1, 0), picture.files());
     int const n = samples(500'000, 4'000'000);
     auto const points = receivers();
@@ -214,8 +168,8 @@ TEST_CASE("through a portal: samples by the density, which integrates to 1 over 
             outside += again == 0;
             other += again > 0 && std::abs(again / static_cast<double>(s->pdf) - 1) > 1e-4;
             if (again > 0)
-                dark += std::abs(l.radiance(p, s->wi) - Lit::luminance_of(s->radiance)) >
-                        1e-4 * (1 + l.radiance(p, s->wi));
+                dark += std::abs(luminance_at(l, p, s->wi) - luminance_of(s->radiance)) >
+                        1e-4 * (1 + luminance_at(l, p, s->wi));
         }
         CHECK(other <= n / 8 / 500);
         CHECK(outside <= n / 8 / 200);
@@ -227,7 +181,7 @@ TEST_CASE("through a portal: samples by the density, which integrates to 1 over 
 }
 
 TEST_CASE("through a portal: nothing behind it, beside it, or in its wall") {
-    SkyPicture const picture(64);
+    Picture const picture = sky_picture(64);
     Lit const l(through(kCorners, true), {}, picture.files());
     InfiniteLight open = through(kCorners, true);
     open.portal.reset();
@@ -236,7 +190,7 @@ TEST_CASE("through a portal: nothing behind it, beside it, or in its wall") {
     for (Vec3 const p : {placed(0, 0, 1), placed(0, 0, 1e-3), placed(9, 0, 50)}) {
         CHECK_FALSE(l.sample(p, {0.3f, 0.6f}));
         CHECK(l.pdf(p, outwards) == 0);
-        CHECK(l.radiance(p, outwards) == 0);
+        CHECK(luminance_at(l, p, outwards) == 0);
     }
     Random r(23);
     int inside = 0;
@@ -250,7 +204,7 @@ TEST_CASE("through a portal: nothing behind it, beside it, or in its wall") {
         bool const in = up > 0 && rim > 0;
         inside += in;
         REQUIRE((l.pdf(p, w) > 0) == in);
-        REQUIRE(l.radiance(p, w) == (in ? sky.radiance(p, w) : 0));
+        REQUIRE(luminance_at(l, p, w) == (in ? luminance_at(sky, p, w) : 0));
     }
     CHECK(inside > 1000);
 }
@@ -281,7 +235,7 @@ TEST_CASE(
             for (int i = 0; i < n; ++i) {
                 auto const s = l->sample(p, random_square(r));
                 REQUIRE(s);
-                mean.add(Lit::luminance_of(s->radiance) * static_cast<double>(dot(s->wi, normal)) /
+                mean.add(luminance_of(s->radiance) * static_cast<double>(dot(s->wi, normal)) /
                          static_cast<double>(s->pdf));
             }
             // Not so where the portal is within rounding of the receiver.
@@ -294,7 +248,7 @@ TEST_CASE(
 
 TEST_CASE(
     "rays sent in through a portal carry its power, and what they bring to a disk is what the disk sees") {
-    SkyPicture const picture(64);
+    Picture const picture = sky_picture(64);
     Lit const l(through(kCorners, true, 2), *rotate(40, 1, 1, 0), picture.files());
     InfiniteLight open = through(kCorners, true, 2);
     open.portal.reset();
@@ -307,8 +261,9 @@ TEST_CASE(
     for (int j = 0; j < k; ++j)
         for (int i = 0; i < k; ++i) {
             double const c = std::sqrt((i + 0.5) / k);  // d(cos^2) / 2 = cos d(cos)
-            flux += sky.radiance({}, kFrame.from_local(direction(std::acos(c), 2 * kPiD * (j + 0.5) / k))) *
-                    kPiD / (static_cast<double>(k) * k);
+            flux +=
+                luminance_at(sky, {}, kFrame.from_local(direction(std::acos(c), 2 * kPiD * (j + 0.5) / k))) *
+                kPiD / (static_cast<double>(k) * k);
         }
     flux *= 6;
     // A disk of radius 1, two below the portal and aside, that faces it askew.
@@ -323,7 +278,7 @@ TEST_CASE(
         double weight = 0, hit = 0;
         if (s) {
             REQUIRE((s->pdf_position > 0 && s->pdf_direction > 0));
-            weight = Lit::luminance_of(s->radiance) / static_cast<double>(s->pdf_position * s->pdf_direction);
+            weight = luminance_of(s->radiance) / static_cast<double>(s->pdf_position * s->pdf_direction);
             // It starts outside the scene, and passes the portal.
             REQUIRE(dot(s->ray.o - scene.centre, s->ray.d) <= -0.999f * scene.radius);
             Vec2 const at = shares(s->ray.o, -s->ray.d);
@@ -343,7 +298,7 @@ TEST_CASE(
         Vec2 const on = square_to_disk(random_square(r));
         Vec3 const p = centre + disk.from_local({on.x, on.y, 0});
         auto const b = l.sample(p, random_square(r));
-        seen.add(b ? Lit::luminance_of(b->radiance) *
+        seen.add(b ? luminance_of(b->radiance) *
                          std::max(0.0, static_cast<double>(dot(b->wi, disk.from_local({0, 0, 1})))) /
                          static_cast<double>(b->pdf) * kPiD
                    : 0.0);
@@ -373,7 +328,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a portal and a receiver scaled by a power of two give the same bits") {
-    SkyPicture const picture(64);
+    Picture const picture = sky_picture(64);
     Random r(26);
     for (float const s : {0x1p-40f, 0x1p30f}) {
         Corners small = kCorners;
@@ -393,7 +348,7 @@ TEST_CASE("a portal and a receiver scaled by a power of two give the same bits")
 }
 
 TEST_CASE("a portal's samples at extreme numbers, and a black picture") {
-    SkyPicture const picture(64);
+    Picture const picture = sky_picture(64);
     Lit const l(through(kCorners, true), {}, picture.files());
     for (Vec3 const p : receivers())
         for (float const x : {0.0f, 0x1p-32f, 0x1p-24f, 0.5f, 1 - 0x1p-24f})

@@ -75,6 +75,10 @@ struct Transform {
 /// How a linear map with columns x, y, z changes densities over directions: |det|, or 0 where it maps balls to balls and so
 /// leaves them alone (to 1e-6). See direction_density.
 float direction_scale(Vec3 x, Vec3 y, Vec3 z);
+template <class Map>
+float direction_scale(Map const& m) {
+    return direction_scale(m.vector({1, 0, 0}), m.vector({0, 1, 0}), m.vector({0, 0, 1}));
+}
 /// d(directions before) / d(directions after the map) at a unit direction that the map makes `mapped`: |M w|^3 / |det M|.
 inline float direction_density(float scale, Vec3 mapped) {
     if (scale == 0.0f) return 1.0f;

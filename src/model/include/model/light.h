@@ -79,9 +79,8 @@ struct LightData {
     float cos_outer = -1, cos_inner = -1;
     EnvironmentMapping mapping = EnvironmentMapping::EqualArea;  // of an infinite image, resolved
     float image_scale = 1;                                       // infinite image: radiance per stored value
-    float volume_scale =
-        0;              // by picture or table: |det to_world| where directions change their density, else 0
-    Vec2 window{1, 1};  // projection: half of its picture's sides at distance 1
+    float direction_scale = 0;  // by picture or table: of to_world (math/transform.h)
+    Vec2 window{1, 1};          // projection: half of its picture's sides at distance 1
     float flux =
         0;  // by picture or table, at a point: integral of the relative intensity over directions, sr …
     float peak = 0;  // … and its greatest value

@@ -4,9 +4,11 @@
 #include "math/vec.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
@@ -102,5 +104,34 @@ class Distribution2D {
     std::vector<Distribution1D> rows_;
     Distribution1D marginal_;
 };
+
+/// Means over width x height cells of the unit square of value(Vec2), for a table of where it is large: by weights 1 2 1 over each
+/// cell and its edges, so that no cell in which it is above 0 on the grid, edges included, has none.
+template <class F>
+std::vector<float> cell_means(int width, int height, F const& value) {
+    auto const nx = static_cast<std::size_t>(width);
+    auto const ny = static_cast<std::size_t>(height);
+    // Three rows of the grid at a time: pictures are large.
+    std::array<std::vector<float>, 3> rows;
+    auto const fill = [&](std::vector<float>& row, std::size_t y) {
+        row.resize(2 * nx + 1);
+        for (std::size_t x = 0; x < row.size(); ++x)
+            row[x] = value(Vec2{static_cast<float>(x) / static_cast<float>(2 * nx),
+                                static_cast<float>(y) / static_cast<float>(2 * ny)});
+    };
+    std::vector<float> means(nx * ny);
+    fill(rows[2], 0);
+    for (std::size_t y = 0; y < ny; ++y) {
+        std::swap(rows[0], rows[2]);
+        fill(rows[1], 2 * y + 1);
+        fill(rows[2], 2 * y + 2);
+        for (std::size_t x = 0; x < nx; ++x)
+            for (std::size_t j = 0; j <= 2; ++j)
+                for (std::size_t i = 0; i <= 2; ++i)
+                    means[y * nx + x] +=
+                        (i == 1 ? 2.0f : 1.0f) * (j == 1 ? 2.0f : 1.0f) / 16.0f * rows[j][2 * x + i];
+    }
+    return means;
+}
 
 }  // namespace nephroid
