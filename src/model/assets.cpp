@@ -1,6 +1,7 @@
 #include "model/assets.h"
 
 #include "image/read.h"
+#include "scene/fields.h"
 #include "scene/match.h"
 #include "spectrum/color.h"
 
@@ -40,6 +41,46 @@ Transform mapping_transform(Scene const& scene, SourceLocation where, Mat4 const
     auto const t = make_transform(m);
     if (!t) scene.fail(where, "the texture's transform cannot be inverted; remove a scale by 0");
     return *t;
+}
+
+/// The index of refraction that a kind of material gives as a spectrum.
+Spd const* index_of(MaterialKind const& kind) {
+    return match(kind, [](auto const& m) -> Spd const* {
+        if constexpr (requires { m.coat; })
+            return &m.coat.eta;
+        else if constexpr (requires { std::get<ConstantSpd>(m.eta); })
+            return &m.eta;
+        else
+            return nullptr;
+    });
+}
+Interior const* interior_of(MaterialKind const& kind) {
+    return match(kind, [](auto const& m) -> Interior const* {
+        if constexpr (requires { m.interior; })
+            return &m.interior;
+        else if constexpr (requires { m.transmission.interior; })
+            return &m.transmission.interior;
+        else
+            return nullptr;
+    });
+}
+bool is_oriented(Roughness const& r) { return r.u.valid() && r.v.valid() && r.u != r.v; }
+template <class M>
+bool is_oriented(M const& m) {
+    if constexpr (requires { m.anisotropy; })
+        return m.anisotropy.strength.valid();
+    else if constexpr (requires { m.nu; })
+        return true;
+    else if constexpr (std::same_as<M, MeasuredMaterial>)
+        return true;
+    else if constexpr (std::same_as<M, CoatedConductorMaterial>)
+        return is_oriented(m.coat.roughness) || is_oriented(m.conductor.roughness);
+    else if constexpr (requires { m.coat; })
+        return is_oriented(m.coat.roughness);
+    else if constexpr (requires { m.roughness.distribution; })
+        return is_oriented(m.roughness);
+    else
+        return false;
 }
 
 }  // namespace
@@ -92,44 +133,52 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
             [](ScaleTexture const&) {}, [](MixTexture const&) {});
         textures_.push_back(d);
     }
+    materials_.resize(scene.materials.size());
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        Material const& material = scene.materials[i];
+        MaterialData& d = materials_[i];
+        auto const compiled = [&](Spd const& spd) {
+            try {
+                return spectra_.compile(spd, SpectrumRole::Unbounded);
+            } catch (Error const& e) {
+                throw Error(e.kind(), scene.locate(material.where) + ": " + e.what());
+            }
+        };
+        if (Spd const* const eta = index_of(material.kind)) d.eta = compiled(with_ends_kept(*eta));
+        if (Interior const* const inside = interior_of(material.kind)) {
+            d.absorption = compiled(with_ends_kept(inside->absorption));
+            d.priority = inside->priority;
+            d.encloses = d.priority > 0 || !d.absorption.is_black();
+        }
+    }
     auto const needs_point = [&](TextureId id) { return id.valid() && !textures_[id.value].flat; };
     std::vector<std::uint8_t> known(scene.materials.size());
-    materials_.resize(scene.materials.size());
     // What a mix needs and lets pass is what its parts do; each material is looked at once, however often it is mixed.
     std::function<MaterialData const&(MaterialId)> look = [&](MaterialId id) -> MaterialData const& {
         MaterialData& d = materials_[id.value];
         if (known[id.value]) return d;
         known[id.value] = 1;
-        match(
-            scene[id].kind, [&](DiffuseMaterial const& m) { d.textured = needs_point(m.reflectance); },
-            [&](ConductorMaterial const& m) {
-                d.textured = needs_point(m.eta) || needs_point(m.k) || needs_point(m.reflectance);
-            },
-            [&](InterfaceMaterial const&) { d.passes = true; },
-            [&](MixMaterial const& m) {
-                MaterialData const& first = look(m.a);
-                MaterialData const& second = look(m.b);
-                d.mix = true;
-                d.textured = needs_point(m.amount) || first.textured || second.textured;
-                d.passes = first.passes || second.passes;
-            },
-            [](auto const&) {});
+        Material const& material = scene[id];
+        if (auto const* mix = std::get_if<MixMaterial>(&material.kind)) {
+            MaterialData const& first = look(mix->a);
+            MaterialData const& second = look(mix->b);
+            d.mix = true;
+            d.textured = needs_point(mix->amount) || first.textured || second.textured;
+            d.passes = first.passes || second.passes;
+            d.encloses = first.encloses || second.encloses;
+            return d;
+        }
+        d.passes = std::holds_alternative<InterfaceMaterial>(material.kind);
+        d.perturbed = material.displacement.valid() || material.normal_map.image.valid();
+        d.oriented = match(material.kind, [](auto const& m) { return is_oriented(m); });
+        d.textured = d.perturbed || d.oriented;
+        for_each_leaf(material.kind, [&](auto const& leaf) {
+            if constexpr (std::same_as<std::remove_cvref_t<decltype(leaf)>, TextureId>)
+                d.textured = d.textured || needs_point(leaf);
+        });
         return d;
     };
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        Material const& material = scene.materials[i];
-        look(MaterialId{i});
-        auto const compile_eta = [&](Spd const& eta) {
-            try {
-                materials_[i].eta = spectra_.compile(with_ends_kept(eta), SpectrumRole::Unbounded);
-            } catch (Error const& e) {
-                throw Error(e.kind(), scene.locate(material.where) + ": " + e.what());
-            }
-        };
-        match(
-            material.kind, [&](DielectricMaterial const& m) { compile_eta(m.eta); },
-            [&](ThinDielectricMaterial const& m) { compile_eta(m.eta); }, [](auto const&) {});
-    }
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) look(MaterialId{i});
 }
 
 std::size_t Assets::image_bytes() const {

@@ -1,5 +1,5 @@
 // Lambert's law (PBRT 4th ed., 9.2).
-#include "model/bsdf.h"
+#include "make_bsdf.h"
 #include "sampling/warp.h"
 
 namespace nephroid {
@@ -25,6 +25,11 @@ std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, M
     s.pdf = density;
     s.f = evaluate(b, wo, wi, mode);
     return result;
+}
+
+void make(DiffuseMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
+    bsdf.emplace<DiffuseBsdf>(
+        DiffuseBsdf{clamp(evaluate_spectrum(p.assets, m.reflectance, p.at, p.lambda), 0.0f, 1.0f)});
 }
 
 }  // namespace nephroid

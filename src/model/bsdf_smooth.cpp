@@ -1,6 +1,7 @@
 // Smooth boundaries: dielectric (PBRT 4th ed., 9.5), thin dielectric (9.5.1), conductor (9.4).
 // Nothing but delta parts: a direction is either the mirrored or the refracted one.
-#include "model/bsdf.h"
+#include "make_bsdf.h"
+#include "model/fresnel.h"
 
 namespace nephroid {
 
@@ -24,10 +25,7 @@ std::optional<BsdfSample> refraction(DielectricBsdf const& b, float hero_transmi
     BsdfSample s;
     s.eta = b.eta[0];
     if (!refract(wo, s.eta, s.wi)) return std::nullopt;
-    float t = hero_transmittance / abs_cos_theta(s.wi);
-    // Radiance is squeezed into (or out of) the denser medium's smaller solid angle: Veach 1997, eq. 5.2.
-    if (mode == Mode::Radiance) t /= sqr(s.eta);
-    s.f = Spectrum(t);
+    s.f = Spectrum(hero_transmittance / abs_cos_theta(s.wi) * refraction_scale(mode, s.eta));
     s.pdf = probability;
     s.delta = true;
     s.transmitted = true;
@@ -87,23 +85,51 @@ std::optional<BsdfSample> sample(ConductorBsdf const& b, Vec3 wo, float, Vec2, M
 Spectrum albedo(ConductorBsdf const& b, Vec3 wo) { return fresnel_conductor(abs_cos_theta(wo), b.eta, b.k); }
 
 // --- Whitted's branches -----------------------------------------------------------------------------------------------------
-DeltaBranches delta_branches(Bsdf const& bsdf, Vec3 wo, Mode mode) {
-    DeltaBranches out;
-    if (wo.z == 0.0f) return out;
-    match(
-        bsdf, [](DiffuseBsdf const&) {},
-        [&](DielectricBsdf const& b) {
-            Spectrum const r = fresnel_dielectric(wo.z, b.eta);
-            out.reflected = reflection(r, wo, 1.0f);
-            out.transmitted = refraction(b, 1.0f - r[0], wo, 1.0f, mode);
-        },
-        [&](ThinDielectricBsdf const& b) {
-            Spectrum const r = thin_reflectance(b, wo);
-            out.reflected = reflection(r, wo, 1.0f);
-            out.transmitted = straight_through(Spectrum(1.0f) - r, wo, 1.0f);
-        },
-        [&](ConductorBsdf const& b) { out.reflected = reflection(albedo(b, wo), wo, 1.0f); });
-    return out;
+DeltaBranches delta_branches(DielectricBsdf const& b, Vec3 wo, Mode mode) {
+    if (wo.z == 0.0f) return {};
+    Spectrum const r = fresnel_dielectric(wo.z, b.eta);
+    return {reflection(r, wo, 1.0f), refraction(b, 1.0f - r[0], wo, 1.0f, mode)};
+}
+DeltaBranches delta_branches(ThinDielectricBsdf const& b, Vec3 wo, Mode) {
+    if (wo.z == 0.0f) return {};
+    Spectrum const r = thin_reflectance(b, wo);
+    return {reflection(r, wo, 1.0f), straight_through(Spectrum(1.0f) - r, wo, 1.0f)};
+}
+DeltaBranches delta_branches(ConductorBsdf const& b, Vec3 wo, Mode) {
+    if (wo.z == 0.0f) return {};
+    return {reflection(albedo(b, wo), wo, 1.0f), std::nullopt};
+}
+
+// --- from materials ----------------------------------------------------------------------------------------------------------
+void make(DielectricMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
+    RuntimeSpectrum const& eta = p.data().eta;
+    Spectrum const lanes = p.index(eta);
+    Microfacets const facets = p.facets(m.roughness);
+    // Nothing bends where the indices are the same: microfacets would not be seen (pbrt-v4).
+    if (facets.smooth() || (lanes[0] == 1.0f && !p.disperses(eta)))
+        bsdf.emplace<DielectricBsdf>(DielectricBsdf{lanes, p.disperses(eta)});
+    else
+        bsdf.emplace<RoughDielectricBsdf>(RoughDielectricBsdf{lanes[0], p.disperses(eta), facets});
+}
+
+void make(ThinDielectricMaterial const&, MaterialPoint const& p, Bsdf& bsdf) {
+    bsdf.emplace<ThinDielectricBsdf>(ThinDielectricBsdf{p.index(p.data().eta)});
+}
+
+ComplexIndex complex_index(ConductorMaterial const& m, MaterialPoint const& p) {
+    if (!m.reflectance.valid()) return {p.spectrum(m.eta, {}), p.spectrum(m.k, {})};
+    // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
+    Spectrum const r = clamp(p.spectrum(m.reflectance, {}), 0.0f, 0.9999f);
+    return {Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))};
+}
+
+void make(ConductorMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
+    auto const [eta, k] = complex_index(m, p);
+    Microfacets const facets = p.facets(m.roughness);
+    if (facets.smooth())
+        bsdf.emplace<ConductorBsdf>(ConductorBsdf{eta, k});
+    else
+        bsdf.emplace<RoughConductorBsdf>(RoughConductorBsdf{eta, k, facets});
 }
 
 }  // namespace nephroid

@@ -1,5 +1,7 @@
 #include "model/material.h"
 
+#include "make_bsdf.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,48 +36,43 @@ float interface_share(Assets const& assets, MaterialId id, TexturePoint const& a
         [](auto const&) { return 0.0f; });
 }
 
-namespace {
+Microfacets MaterialPoint::facets(Roughness const& r) const {
+    Microfacets m;
+    m.kind = r.distribution;
+    m.multiscatter = r.multiscatter;
+    if (!r.u.valid() && !r.v.valid()) return m;
+    // alpha = sqrt(roughness) spreads the visible range of roughness evenly (pbrt-v4). Beyond 1 the surface is no height field
+    // that anyone has seen, and a texture may hold anything.
+    auto const alpha = [&](float roughness) {
+        float const x = clamp(roughness, 0.0f, 1.0f);
+        return r.remap ? std::sqrt(x) : x;
+    };
+    float const u = number(r.u.valid() ? r.u : r.v, 0.0f);
+    m.ax = alpha(u);
+    m.ay = r.v.valid() && r.u.valid() ? alpha(number(r.v, 0.0f)) : m.ax;
+    // Where one of the two is not smooth the other must not be a line.
+    if (!m.smooth()) {
+        m.ax = max(m.ax, 1e-4f);
+        m.ay = max(m.ay, 1e-4f);
+    }
+    return m;
+}
 
-/// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.
-Spectrum index_lanes(RuntimeSpectrum const& eta, Wavelengths const& lambda) {
+Spectrum MaterialPoint::index(RuntimeSpectrum const& eta) const {
     if (lambda.is_rgb()) return Spectrum(eta.rgb().y);
     return eta.sample(lambda);
 }
 
-}  // namespace
-
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf) {
+    MaterialPoint const p{assets, id, at, lambda};
     return match(
-        assets.scene()[id].kind,
-        [&](DiffuseMaterial const& m) {
-            bsdf.emplace<DiffuseBsdf>(
-                DiffuseBsdf{clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 1.0f)});
+        assets.scene()[id].kind, [](InterfaceMaterial const&) { return false; },
+        [](MixMaterial const&) { return false; },
+        [&](auto const& m) {
+            make(m, p, bsdf);
             return true;
-        },
-        [&](DielectricMaterial const&) {
-            RuntimeSpectrum const& eta = assets.data(id).eta;
-            bsdf.emplace<DielectricBsdf>(
-                DielectricBsdf{index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant()});
-            return true;
-        },
-        [&](ThinDielectricMaterial const&) {
-            bsdf.emplace<ThinDielectricBsdf>(ThinDielectricBsdf{index_lanes(assets.data(id).eta, lambda)});
-            return true;
-        },
-        [&](ConductorMaterial const& m) {
-            if (m.reflectance.valid()) {
-                // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
-                Spectrum const r = clamp(evaluate_spectrum(assets, m.reflectance, at, lambda), 0.0f, 0.9999f);
-                bsdf.emplace<ConductorBsdf>(
-                    ConductorBsdf{Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))});
-            } else {
-                bsdf.emplace<ConductorBsdf>(ConductorBsdf{evaluate_spectrum(assets, m.eta, at, lambda),
-                                                          evaluate_spectrum(assets, m.k, at, lambda)});
-            }
-            return true;
-        },
-        [](InterfaceMaterial const&) { return false; }, [](MixMaterial const&) { return false; });
+        });
 }
 
 }  // namespace nephroid

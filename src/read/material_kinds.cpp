@@ -44,7 +44,7 @@ MaterialKind Materials::kind_of(std::string const& type, Params& p, Pending cons
         return m;
     }
     if (type == "dielectric") {
-        DielectricMaterial m{index(p)};
+        DielectricMaterial m{index(p), {}, {}};
         note_rough(p);
         note_displaced(p);
         return m;

@@ -73,7 +73,8 @@ void Materials::make(Pending& pending) {
     }
     auto kind = kind_of(type, p, pending);
     p.note_unused();
-    context_.scene.materials[pending.id.value] = Material{std::move(kind), pending.name, pending.where};
+    context_.scene.materials[pending.id.value] =
+        Material{std::move(kind), pending.name, pending.where, {}, {}};
 }
 
 }  // namespace nephroid

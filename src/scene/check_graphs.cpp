@@ -172,7 +172,7 @@ void check_graphs(Scene const& scene) {
     auto const below_material = [&](std::uint32_t i) { return ids_in<MaterialId>(scene.materials[i].kind); };
     auto const own_cost = [&](std::uint32_t i) {
         std::uint64_t sum = 1;
-        for (std::uint32_t const t : ids_in<TextureId>(scene.materials[i].kind)) sum = add(sum, costs[t]);
+        for (std::uint32_t const t : ids_in<TextureId>(scene.materials[i])) sum = add(sum, costs[t]);
         return sum;
     };
     check_evaluations(scene, scene.materials, "material",

@@ -48,6 +48,31 @@ void check_index(Check const& c, Spd const& eta) {
         [](NamedSpd const&) {});
 }
 
+void check_interior(Check const& c, Interior const& inside) {
+    check_spd(c, inside.absorption, "the absorption");
+    bool negative = false;
+    match(
+        inside.absorption, [&](ConstantSpd const& s) { negative = s.value < 0; },
+        [&](TabulatedSpd const& s) {
+            for (float const value : s.value) negative = negative || value < 0;
+        },
+        [&](RgbUnboundedSpd const& s) { negative = s.rgb.x < 0 || s.rgb.y < 0 || s.rgb.z < 0; },
+        [](auto const&) {});
+    c.require(!negative, "the absorption must not be negative");
+    c.require(inside.priority >= 0, "the priority of an interior must not be negative");
+}
+
+void check_conductor(Check const& c, ConductorMaterial const& m) {
+    c.require(m.reflectance.valid() || (m.eta.valid() && m.k.valid()),
+              "the conductor needs a reflectance, or eta and k: name textures for them");
+}
+
+void check_coat(Check const& c, Coat const& coat) {
+    check_index(c, coat.eta);
+    c.require(coat.max_depth >= 1 && coat.max_depth <= 255, "the coat's depth must be between 1 and 255");
+    c.require(coat.samples >= 1 && coat.samples <= 255, "the coat's samples must be between 1 and 255");
+}
+
 }  // namespace
 
 void check_texture(Check const& c, Texture const& texture) {
@@ -74,18 +99,51 @@ void check_texture(Check const& c, Texture const& texture) {
 }
 
 void check_material(Check const& c, Material const& material) {
-    check_ids(c, material.kind, "the material");
+    check_ids(c, material, "the material");
+    check_finite(c, material.kind, "the material");
+    check_finite(c, material.normal_map, "the normal map");
     match(
         material.kind,
         [&](DiffuseMaterial const& m) {
             c.require(m.reflectance.valid(), "the diffuse material names no reflectance: name a texture");
         },
-        [&](ConductorMaterial const& m) {
-            c.require(m.reflectance.valid() || (m.eta.valid() && m.k.valid()),
-                      "the conductor needs a reflectance, or eta and k: name textures for them");
+        [&](ConductorMaterial const& m) { check_conductor(c, m); },
+        [&](DielectricMaterial const& m) {
+            check_index(c, m.eta);
+            check_interior(c, m.interior);
         },
-        [&](DielectricMaterial const& m) { check_index(c, m.eta); },
         [&](ThinDielectricMaterial const& m) { check_index(c, m.eta); },
+        [&](CoatedDiffuseMaterial const& m) {
+            c.require(m.reflectance.valid(), "the coated base names no reflectance: name a texture");
+            check_coat(c, m.coat);
+        },
+        [&](CoatedConductorMaterial const& m) {
+            check_conductor(c, m.conductor);
+            check_coat(c, m.coat);
+        },
+        [&](DiffuseTransmissionMaterial const& m) {
+            c.require(m.reflectance.valid() && m.transmittance.valid(),
+                      "the material names no reflectance or no transmittance: name textures for both");
+            c.require(m.scale >= 0, "the scale of reflectance and transmittance must not be negative");
+        },
+        [&](MeasuredMaterial const& m) {
+            c.require(!m.file.path.empty(), "the measured material names no file: name one");
+        },
+        [&](AshikhminShirleyMaterial const& m) {
+            c.require(m.reflectance.valid() && m.specular.valid() && m.nu.valid() && m.nv.valid(),
+                      "the material needs a reflectance, a specular reflectance and two exponents");
+        },
+        [&](PlasticMaterial const& m) {
+            c.require(m.reflectance.valid(), "the plastic names no reflectance: name a texture");
+            check_index(c, m.eta);
+        },
+        [&](MetallicRoughnessMaterial const& m) {
+            c.require(m.base_color.valid(), "the material names no base color: name a texture");
+            c.require(m.index.ior == 0 || m.index.ior >= 1,
+                      "the index of refraction must be 0 or at least 1");
+            c.require(m.index.dispersion >= 0, "the dispersion must not be negative");
+            check_interior(c, m.transmission.interior);
+        },
         [&](MixMaterial const& m) {
             c.require(m.a.valid() && m.b.valid(), "the mix names fewer than two materials: name both");
             c.require(m.amount.valid(), "the mix names no amount: name a float texture");

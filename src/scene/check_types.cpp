@@ -49,21 +49,74 @@ class Types {
 
 void check_texture_types(Scene const& scene, std::vector<std::uint32_t> const& children_first) {
     Types const types(scene, children_first);
-    for (Material const& material : scene.materials)
+    for (Material const& material : scene.materials) {
+        auto const number = [&](TextureId id, char const* what) {
+            types.require(material.where, id, Type::Float, what);
+        };
+        auto const spectrum = [&](TextureId id, char const* what) {
+            types.require(material.where, id, Type::Spectrum, what);
+        };
+        auto const rough = [&](Roughness const& r) {
+            number(r.u, "the roughness");
+            number(r.v, "the roughness");
+        };
+        auto const conductor = [&](ConductorMaterial const& m) {
+            spectrum(m.reflectance, "the reflectance");
+            spectrum(m.eta, "the index eta");
+            spectrum(m.k, "the absorption k");
+            rough(m.roughness);
+        };
+        auto const coat = [&](Coat const& m) {
+            rough(m.roughness);
+            number(m.thickness, "the coat's thickness");
+            number(m.g, "the coat's asymmetry g");
+            spectrum(m.albedo, "the coat's albedo");
+        };
+        number(material.displacement, "the displacement");
         match(
-            material.kind,
-            [&](DiffuseMaterial const& m) {
-                types.require(material.where, m.reflectance, Type::Spectrum, "the reflectance");
+            material.kind, [&](DiffuseMaterial const& m) { spectrum(m.reflectance, "the reflectance"); },
+            [&](DielectricMaterial const& m) { rough(m.roughness); },
+            [&](ConductorMaterial const& m) { conductor(m); }, [](ThinDielectricMaterial const&) {},
+            [](InterfaceMaterial const&) {},
+            [&](MixMaterial const& m) { number(m.amount, "the mix's amount"); },
+            [&](CoatedDiffuseMaterial const& m) {
+                spectrum(m.reflectance, "the reflectance");
+                coat(m.coat);
             },
-            [&](ConductorMaterial const& m) {
-                types.require(material.where, m.reflectance, Type::Spectrum, "the reflectance");
-                types.require(material.where, m.eta, Type::Spectrum, "the index eta");
-                types.require(material.where, m.k, Type::Spectrum, "the absorption k");
+            [&](CoatedConductorMaterial const& m) {
+                conductor(m.conductor);
+                coat(m.coat);
             },
-            [&](MixMaterial const& m) {
-                types.require(material.where, m.amount, Type::Float, "the mix's amount");
+            [&](DiffuseTransmissionMaterial const& m) {
+                spectrum(m.reflectance, "the reflectance");
+                spectrum(m.transmittance, "the transmittance");
             },
-            [](auto const&) {});
+            [](MeasuredMaterial const&) {},
+            [&](AshikhminShirleyMaterial const& m) {
+                spectrum(m.reflectance, "the reflectance");
+                spectrum(m.specular, "the specular reflectance");
+                number(m.nu, "the exponent nu");
+                number(m.nv, "the exponent nv");
+            },
+            [&](PlasticMaterial const& m) {
+                spectrum(m.reflectance, "the reflectance");
+                spectrum(m.specular, "the specular reflectance");
+                rough(m.roughness);
+            },
+            [&](MetallicRoughnessMaterial const& m) {
+                spectrum(m.base_color, "the base color");
+                spectrum(m.specular.color, "the specular color");
+                spectrum(m.sheen.color, "the sheen's color");
+                number(m.metallic, "the metalness");
+                number(m.roughness, "the roughness");
+                number(m.specular.factor, "the specular factor");
+                number(m.transmission.factor, "the transmission");
+                number(m.clearcoat.factor, "the clearcoat");
+                number(m.clearcoat.roughness, "the clearcoat's roughness");
+                number(m.sheen.roughness, "the sheen's roughness");
+                number(m.anisotropy.strength, "the anisotropy");
+            });
+    }
     for (Group const& group : scene.groups)
         for (Object const& object : group.objects)
             types.require(object.where, object.alpha, Type::Float, "the object's alpha");

@@ -18,6 +18,7 @@ namespace {
 void put(Digest& d, std::string const& text);
 void put(Digest&, SourceLocation) {}
 void put(Digest& d, ImageFile const& image);
+void put(Digest& d, DataFile const& file);
 void put(Digest& d, Material const& m);
 void put(Digest& d, Group const& g);
 template <class T>
@@ -67,10 +68,8 @@ void put(Digest& d, std::string const& text) {
     d.bytes(text.data(), text.size());
 }
 
-/// The picture itself, wherever it lies; one that cannot be read (compile() will say so) is told by its path.
-void put(Digest& d, ImageFile const& image) {
-    auto const& [path, encoding, where] = image;
-    put(d, encoding);
+/// The file itself, wherever it lies; one that cannot be read (compile() will say so) is told by its path.
+void put_contents(Digest& d, std::string const& path) {
     // A device or a FIFO must not be waited for, nor what calls itself a regular file of no bytes (/proc/kmsg).
     std::error_code error;
     std::ifstream file;
@@ -87,6 +86,15 @@ void put(Digest& d, ImageFile const& image) {
         size += n;
     }
     d.word(size);
+}
+void put(Digest& d, ImageFile const& image) {
+    auto const& [path, encoding, where] = image;
+    put(d, encoding);
+    put_contents(d, path);
+}
+void put(Digest& d, DataFile const& file) {
+    auto const& [path, where] = file;
+    put_contents(d, path);
 }
 
 /// All fields but the one at `skipped`.

@@ -34,6 +34,13 @@ TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit co
     return at;
 }
 
+/// The hero stands for all four lanes from here on (Wilkie et al. 2014).
+void keep_hero(Walk& walk) {
+    if (walk.hero_only) return;
+    walk.beta = Spectrum(4.0f * walk.beta[0], 0, 0, 0);
+    walk.hero_only = true;
+}
+
 }  // namespace
 
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance) {
@@ -111,11 +118,7 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
 
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf);
-    if (s.keep_hero && !walk.hero_only) {
-        // The hero stands for all four lanes from here on (Wilkie et al. 2014).
-        walk.beta = Spectrum(4.0f * walk.beta[0], 0, 0, 0);
-        walk.hero_only = true;
-    }
+    if (s.keep_hero) keep_hero(walk);
     if (walk.beta.is_black()) return false;
     if (!walk.beta.is_finite()) {
         c.tainted = true;
@@ -123,7 +126,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     }
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
-    walk.pdf = s.pdf;
+    walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
     if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
     walk.cone += v.hit.t;
     walk.ray = v.hit.spawn(normalize(v.frame.from_local(s.wi)));
@@ -133,10 +136,17 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
 
 bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     // Draws have names, so those that nothing asks for are left out.
-    bool const smooth = is_delta(v.bsdf);
-    c.sampler.at(dimension::of(walk.vertex, smooth ? dimension::kLobe : dimension::kDirection));
-    float const lobe = smooth ? c.sampler.next_1d() : 0.0f;
-    Vec2 const u = smooth ? Vec2{0, 0} : c.sampler.next_2d();
+    BsdfTraits const is = traits(v.bsdf);
+    float lobe = 0.0f;
+    if (is.chooses) {
+        c.sampler.at(dimension::of(walk.vertex, dimension::kLobe));
+        lobe = c.sampler.next_1d();
+    }
+    Vec2 u{0, 0};
+    if (!is.delta) {
+        c.sampler.at(dimension::of(walk.vertex, dimension::kDirection));
+        u = c.sampler.next_2d();
+    }
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, Mode::Radiance, c.hemisphere);
     return s && follow(c, walk, v, *s);
 }

@@ -73,7 +73,7 @@ struct Vertex {
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
 inline Receiver receiver_of(Vertex const& v) {
-    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, spreads_through(v.bsdf)};
+    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, traits(v.bsdf).spreads_through};
 }
 
 /// How emission that a ray runs into is weighed against light sampling at the ray's origin.

@@ -17,9 +17,14 @@ struct TextureData {
     bool flat = false;         // a constant: needs no coordinates
 };
 struct MaterialData {
-    RuntimeSpectrum eta;    // of a (thin) dielectric
-    bool textured = false;  // needs uv and tangents at the hit
-    bool mix = false;       // has to be resolved at each hit …
+    RuntimeSpectrum eta;         // of a dielectric, thin or a coat
+    RuntimeSpectrum absorption;  // inside, 1 / length
+    int priority = 0;            // of its interior (scene/material.h)
+    bool encloses = false;   // its interior has a priority or absorbs: paths have to know that they are in it
+    bool textured = false;   // needs uv and tangents at the hit
+    bool oriented = false;   // the shading frame's x axis matters
+    bool perturbed = false;  // a normal map or bumps
+    bool mix = false;        // has to be resolved at each hit …
     bool passes = false;  // … and some of its parts, or it itself, let light pass as if nothing were there
 };
 

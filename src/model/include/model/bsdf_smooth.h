@@ -1,0 +1,39 @@
+// Smooth boundaries: nothing but delta parts.
+#pragma once
+
+#include "model/bsdf_sample.h"
+
+namespace nephroid {
+
+/// Smooth dielectric boundary, eta = n_inside / n_outside; lanes differ where it is dispersive.
+struct DielectricBsdf {
+    Spectrum eta;
+    bool dispersive = false;
+};
+struct ThinDielectricBsdf {
+    Spectrum eta;
+};
+/// Smooth conductor, eta + i k relative to outside.
+struct ConductorBsdf {
+    Spectrum eta, k;
+};
+
+inline BsdfTraits traits(DielectricBsdf const&) { return {.delta = true, .chooses = true}; }
+inline BsdfTraits traits(ThinDielectricBsdf const&) { return {.delta = true, .chooses = true}; }
+inline BsdfTraits traits(ConductorBsdf const&) { return {.delta = true}; }
+NEPHROID_BSDF(DielectricBsdf);
+NEPHROID_BSDF(ThinDielectricBsdf);
+NEPHROID_BSDF(ConductorBsdf);
+static_assert(ScatteringModel<DielectricBsdf>);
+static_assert(ScatteringModel<ThinDielectricBsdf>);
+static_assert(ScatteringModel<ConductorBsdf>);
+
+/// The deterministic branches of smooth parts, for Whitted's tree; pdf = 1 each.
+struct DeltaBranches {
+    std::optional<BsdfSample> reflected, transmitted;
+};
+DeltaBranches delta_branches(DielectricBsdf const& b, Vec3 wo, Mode mode);
+DeltaBranches delta_branches(ThinDielectricBsdf const& b, Vec3 wo, Mode mode);
+DeltaBranches delta_branches(ConductorBsdf const& b, Vec3 wo, Mode mode);
+
+}  // namespace nephroid
