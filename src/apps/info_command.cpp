@@ -28,7 +28,14 @@ std::string name_of(MaterialKind const& m) {
         [](DielectricMaterial const&) { return "dielectric"; },
         [](ConductorMaterial const&) { return "conductor"; },
         [](ThinDielectricMaterial const&) { return "thindielectric"; },
-        [](InterfaceMaterial const&) { return "interface"; }, [](MixMaterial const&) { return "mix"; });
+        [](InterfaceMaterial const&) { return "interface"; }, [](MixMaterial const&) { return "mix"; },
+        [](CoatedDiffuseMaterial const&) { return "coateddiffuse"; },
+        [](CoatedConductorMaterial const&) { return "coatedconductor"; },
+        [](DiffuseTransmissionMaterial const&) { return "diffusetransmission"; },
+        [](MeasuredMaterial const&) { return "measured"; },
+        [](AshikhminShirleyMaterial const&) { return "ashikhminshirley"; },
+        [](PlasticMaterial const&) { return "plastic"; },
+        [](MetallicRoughnessMaterial const&) { return "metallicroughness"; });
 }
 std::string name_of(LightKind const& l) {
     return match(

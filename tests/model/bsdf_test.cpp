@@ -1,5 +1,6 @@
 // Scattering models: samples by their densities, reciprocity, energy, and what a boundary does with wavelengths and Modes.
 #include "model/bsdf.h"
+#include "model/fresnel.h"
 
 #include "support.h"
 

@@ -1,6 +1,7 @@
 // Smooth glass and metal against Fresnel's and Snell's laws.
 #include "emitters.h"
 #include "measure.h"
+#include "model/fresnel.h"
 #include "model/material.h"
 #include "scenes.h"
 #include "spectrum/color.h"

@@ -21,9 +21,16 @@ struct ConductorBsdf {
 inline BsdfTraits traits(DielectricBsdf const&) { return {.delta = true, .chooses = true}; }
 inline BsdfTraits traits(ThinDielectricBsdf const&) { return {.delta = true, .chooses = true}; }
 inline BsdfTraits traits(ConductorBsdf const&) { return {.delta = true}; }
-NEPHROID_BSDF(DielectricBsdf);
-NEPHROID_BSDF(ThinDielectricBsdf);
-NEPHROID_BSDF(ConductorBsdf);
+#define NEPHROID_DELTA_BSDF(B)                                                         \
+    inline Spectrum evaluate(B const&, Vec3, Vec3, Mode) { return {}; }                \
+    inline float pdf(B const&, Vec3, Vec3, HemisphereSampling) { return 0.0f; }        \
+    std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mode, \
+                                     HemisphereSampling how);                          \
+    Spectrum albedo(B const& b, Vec3 wo)
+NEPHROID_DELTA_BSDF(DielectricBsdf);
+NEPHROID_DELTA_BSDF(ThinDielectricBsdf);
+NEPHROID_DELTA_BSDF(ConductorBsdf);
+#undef NEPHROID_DELTA_BSDF
 static_assert(ScatteringModel<DielectricBsdf>);
 static_assert(ScatteringModel<ThinDielectricBsdf>);
 static_assert(ScatteringModel<ConductorBsdf>);
