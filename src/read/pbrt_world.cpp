@@ -47,18 +47,15 @@ void PbrtReader::shape(Tokenizer& tokens, SourceLocation where) {
 bool PbrtReader::read_alpha(Params& p, Object& object) {
     auto const* alpha = p.find("alpha", {ParamType::Float, ParamType::Texture});
     if (!alpha) return true;
-    constexpr char const* kNote = "\"alpha\" is not rendered yet: the shape is opaque";
     if (alpha->type == ParamType::Texture) {
         // Textures may be defined later in the file: looked up at its end.
         alphas_.push_back({group_, context_.scene.groups[group_.value].objects.size(), *alpha});
-        context_.note(alpha->where, kNote);
         return true;
     }
     float const value = p.number("alpha", 1);
     if (value >= 1) return true;
     if (value <= 0 && !object.light) return false;
     object.alpha = textures_.constant(value, alpha->where);
-    context_.note(alpha->where, kNote);
     return true;
 }
 

@@ -14,6 +14,9 @@ namespace nephroid {
 struct Emitter {
     RuntimeSpectrum radiance;  // scale applied
     AreaLight const* light = nullptr;
+    TextureId alpha;  // of the surface; none = it is there everywhere
+    bool unseen =
+        false;  // it is nowhere there, but shines (pbrt's area lights of alpha 0): only light sampling finds it
 
     /// The emission depends on the place.
     [[nodiscard]] bool textured() const { return light->image.valid() || light->texture.valid(); }
