@@ -30,12 +30,12 @@ void immerse_in(Spectrum outside, bool disperses, Bsdf& bsdf) {
 
 }  // namespace
 
-MaterialId Interiors::highest_without(Assets const& assets, MaterialId m) const {
+MaterialId Interiors::highest(Assets const& assets, MaterialId without) const {
     MaterialId best;
     int rank = -1;
-    bool skipped = !m.valid();
+    bool skipped = !without.valid();
     for (std::uint32_t i = count_; i-- > 0;) {  // the newest first
-        if (!skipped && bodies_[i] == m) {
+        if (!skipped && bodies_[i] == without) {
             skipped = true;
             continue;
         }
@@ -45,10 +45,10 @@ MaterialId Interiors::highest_without(Assets const& assets, MaterialId m) const 
     return best;
 }
 
-bool Interiors::hides(Assets const& assets, MaterialId m) const {
+bool Interiors::hides(Assets const& assets, MaterialId m, bool inwards) const {
     int const priority = assets.data(m).priority;
     if (priority == 0) return false;
-    MaterialId const other = highest_without(assets, m);
+    MaterialId const other = highest(assets, inwards ? MaterialId{} : m);
     return other.valid() && assets.data(other).priority >= priority;
 }
 
@@ -67,13 +67,14 @@ void Interiors::cross(MaterialId m, bool inwards) {
 }
 
 Spectrum Interiors::absorption(Assets const& assets, Wavelengths const& lambda) const {
-    MaterialId const m = highest_without(assets, {});
+    MaterialId const m = highest(assets);
     return m.valid() ? assets.data(m).absorption.sample(lambda) : Spectrum{};
 }
 
-void Interiors::immerse(Assets const& assets, MaterialId m, Wavelengths const& lambda, Bsdf& bsdf) const {
+void Interiors::immerse(Assets const& assets, MaterialId m, bool inwards, Wavelengths const& lambda,
+                        Bsdf& bsdf) const {
     if (assets.data(m).priority == 0) return;
-    MaterialId const around = highest_without(assets, m);
+    MaterialId const around = highest(assets, inwards ? MaterialId{} : m);
     if (!around.valid() || assets.data(around).priority == 0) return;
     RuntimeSpectrum const& eta = assets.data(around).eta;
     immerse_in(index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant(), bsdf);

@@ -66,7 +66,8 @@ Spectrum transmittance(PathContext const& c, Interiors const& interiors, float d
 /// A boundary inside a body that outranks it.
 bool is_hidden(PathContext const& c, Walk const& walk, Vertex const& v) {
     Assets const& assets = c.world.assets();
-    return assets.data(v.material).encloses && walk.interiors.hides(assets, v.material);
+    return assets.data(v.material).encloses &&
+           walk.interiors.hides(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
 }
 
 /// The bodies that light along w is in, after leaving v.
@@ -148,7 +149,8 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     TexturePoint at;
     if (data.textured) at = texture_point(c, walk, v.hit);
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
-    if (data.encloses) walk.interiors.immerse(assets, v.material, c.lambda, v.bsdf);
+    if (data.encloses)
+        walk.interiors.immerse(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f, c.lambda, v.bsdf);
     if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
     v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);

@@ -50,7 +50,7 @@ inline float emission_level(Assets const& assets, Emitter const& e, Vec3 p, Vec2
         rgb = max(Vec3{s[0], s[1], s[2]}, Vec3{0.0f});
     }
     // The mean of the channels, not luminance: a blue light is light.
-    float const level = (rgb.x + rgb.y + rgb.z) / 3.0f;
+    float const level = (rgb.x + rgb.y + rgb.z) / 3.0f * opacity(assets, e, p, uv);
     return std::isfinite(level) ? level : 0.0f;
 }
 

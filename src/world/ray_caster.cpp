@@ -41,7 +41,8 @@ struct UserGeometry {
 /// Is the surface there at a hit, where its alpha is between 0 and 1 by chance? The chance is a hash of the direction and of the place
 /// on the surface: another ray has another, the same ray always the same, and a scaled scene keeps them. Looked up at its finest:
 /// what a ray hits must not depend on what it is for.
-bool covers(UserGeometry const& g, std::uint32_t instance, ShapeHit const& hit, Vec3 local, Vec3 direction) {
+bool covers(UserGeometry const& g, std::uint32_t geometry, std::uint32_t instance, ShapeHit const& hit,
+            Vec3 local, Vec3 direction) {
     TextureId const alpha = g.record->object->alpha;
     SurfacePoint s;
     surface_at(*g.record, instance == RTC_INVALID_GEOMETRY_ID ? nullptr : g.scene->instance(instance), hit,
@@ -54,8 +55,8 @@ bool covers(UserGeometry const& g, std::uint32_t instance, ShapeHit const& hit, 
     if (opacity >= 1.0f) return true;
     if (!(opacity > 0.0f)) return false;
     auto const bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    std::uint64_t const key = hash_keys(bits(direction.x), bits(direction.y), bits(direction.z), bits(hit.u),
-                                        bits(hit.v), hit.part, instance);
+    std::uint64_t const key = hash_keys(bits(direction.x), bits(direction.y), bits(direction.z), bits(s.uv.x),
+                                        bits(s.uv.y), hit.part, geometry, instance);
     return to_unit_double(key) < static_cast<double>(opacity);
 }
 
@@ -76,8 +77,8 @@ struct LocalHit : ShapeHit {
     Vec3 p;
 };
 
-std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, std::uint32_t instance,
-                                       RTCRay const& ray) {
+std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, std::uint32_t geometry,
+                                       std::uint32_t instance, RTCRay const& ray) {
     Ray3d const local = to_shape_space(g, ray);
     double t_min = static_cast<double>(ray.tnear);
     double const t_max = static_cast<double>(ray.tfar);
@@ -94,7 +95,7 @@ std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim
                              static_cast<float>(local.o[1] + hit->t * local.d[1]),
                              static_cast<float>(local.o[2] + hit->t * local.d[2])};
                 if (!g.record->object->alpha.valid() ||
-                    covers(g, instance, *hit, p, {ray.dir_x, ray.dir_y, ray.dir_z}))
+                    covers(g, geometry, instance, *hit, p, {ray.dir_x, ray.dir_y, ray.dir_z}))
                     return LocalHit{*hit, p};
                 t_min = hit->t;
             }
@@ -109,7 +110,7 @@ void filter_callback(RTCFilterFunctionNArguments const* args) {
     auto const& hit = *reinterpret_cast<RTCHit const*>(args->hit);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
     ShapeHit const at{static_cast<double>(ray.tfar), hit.u, hit.v, hit.primID};
-    if (!covers(g, hit.instID[0], at, {}, {ray.dir_x, ray.dir_y, ray.dir_z})) args->valid[0] = 0;
+    if (!covers(g, hit.geomID, hit.instID[0], at, {}, {ray.dir_x, ray.dir_y, ray.dir_z})) args->valid[0] = 0;
 }
 
 // Only single rays are traced, so N is 1 and the packet types are the single-ray types.
@@ -117,7 +118,7 @@ void intersect_callback(RTCIntersectFunctionNArguments const* args) {
     if (args->N != 1 || args->valid[0] != -1) return;
     auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    auto const hit = intersect_user(g, args->primID, args->context->instID[0], rayhit->ray);
+    auto const hit = intersect_user(g, args->primID, args->geomID, args->context->instID[0], rayhit->ray);
     if (!hit) return;
     rayhit->ray.tfar = static_cast<float>(hit->t);
     rayhit->hit.u = hit->u;
@@ -134,7 +135,7 @@ void occluded_callback(RTCOccludedFunctionNArguments const* args) {
     if (args->N != 1 || args->valid[0] != -1) return;
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    if (intersect_user(g, args->primID, args->context->instID[0], *ray))
+    if (intersect_user(g, args->primID, args->geomID, args->context->instID[0], *ray))
         ray->tfar = -std::numeric_limits<float>::infinity();
 }
 

@@ -1,5 +1,6 @@
 // Materials and textures.
 #include "helpers.h"
+#include "spectrum/named.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -47,28 +48,149 @@ TEST_CASE("materials and their defaults") {
 }
 
 TEST_CASE("what is not rendered yet stands in and is noted") {
-    auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"float roughness\" 0.1");
-    CHECK(as<RgbAlbedoSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene).reflectance)).rgb.x == 0.1f);
-    CHECK(contains(notes(scene), "t.pbrt:2: Material \"coateddiffuse\""));
-    scene = with(
-        "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" "
-        "\"metal-Ag-k\"");
-    CHECK(as<NamedSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).eta)).name == "metal-Ag-eta");
-    for (char const* type : {"diffusetransmission", "subsurface", "hair", "measured"}) {
+    for (char const* type : {"subsurface", "hair"}) {
         CAPTURE(type);
-        scene = with("Material \"" + std::string(type) + "\" \"float eta\" 1.3");
+        auto const scene = with("Material \"" + std::string(type) + "\" \"float eta\" 1.3");
         material_of<DiffuseMaterial>(scene);
         CHECK(scene.notes.size() == 1);
     }
+}
+
+TEST_CASE("roughness: its names, its defaults, and what is out of range") {
+    auto scene = with("Material \"conductor\" \"float roughness\" 0.3");
+    auto const& both = material_of<ConductorMaterial>(scene).roughness;
+    CHECK(both.u == both.v);
+    CHECK(texture_of<ConstantFloatTexture>(scene, both.u).value == 0.3f);
+    CHECK(both.remap);
+    CHECK(both.distribution == Distribution::TrowbridgeReitz);
+    CHECK_FALSE(both.multiscatter);
     scene = with(
-        "Material \"dielectric\" \"float roughness\" 0.1 \"texture displacement\" \"d\" \"string normalmap\" "
-        "\"n.png\"");
-    CHECK(contains(notes(scene), "roughness is not rendered yet"));
-    CHECK(contains(notes(scene), "displacement is not rendered yet"));
-    CHECK(contains(notes(scene), "normal maps are not rendered yet"));
-    CHECK(notes(with("Material \"conductor\" \"float uroughness\" 0 \"float vroughness\" 0 \"bool "
-                     "remaproughness\" false"))
-              .empty());
+        "Material \"dielectric\" \"float uroughness\" 0.1 \"float vroughness\" 0.4 \"bool remaproughness\" "
+        "false \"string distribution\" \"beckmann\" \"bool multiscatter\" true");
+    auto const& two = material_of<DielectricMaterial>(scene).roughness;
+    CHECK(texture_of<ConstantFloatTexture>(scene, two.u).value == 0.1f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, two.v).value == 0.4f);
+    CHECK_FALSE(two.remap);
+    CHECK(two.distribution == Distribution::Beckmann);
+    CHECK(two.multiscatter);
+    // One direction alone: the other is smooth, as in pbrt.
+    scene = with("Material \"dielectric\" \"float vroughness\" 0.4");
+    CHECK(texture_of<ConstantFloatTexture>(scene, material_of<DielectricMaterial>(scene).roughness.u).value ==
+          0.0f);
+    CHECK_FALSE(material_of<DielectricMaterial>(with("Material \"dielectric\"")).roughness.u.valid());
+    CHECK(contains(notes(with("Material \"conductor\" \"float roughness\" 10")), "above 1"));
+    CHECK(notes(with("Material \"conductor\" \"float roughness\" 1e-8")).empty());
+    CHECK(contains(error_in_world("Material \"conductor\" \"float roughness\" -0.1"),
+                   "t.pbrt:2: \"float roughness\" must not be negative"));
+    CHECK(contains(error_in_world("Material \"conductor\" \"float roughness\" nan"), "t.pbrt:2"));
+    CHECK(contains(error_in_world("Material \"conductor\" \"string distribution\" \"gauss\""), "beckmann"));
+}
+
+TEST_CASE("indices of refraction: bad ones, and the formulas of glass catalogues") {
+    for (char const* bad : {"0", "-1.5", "nan", "inf"}) {
+        CAPTURE(bad);
+        CHECK(contains(error_in_world("Material \"dielectric\" \"float eta\" " + std::string(bad)),
+                       "t.pbrt:2"));
+    }
+    CHECK(notes(with("Material \"dielectric\" \"float eta\" 1")).empty());
+    auto const at = [](Scene const& scene, double nm) {
+        return interpolate(as<TabulatedSpd>(material_of<DielectricMaterial>(scene).eta), nm);
+    };
+    // Schott's N-BK7 at the helium d line: 1.5168.
+    auto const bk7 = with(
+        "Material \"dielectric\" \"float sellmeier\" [1.03961212 0.00600069867 0.231792344 0.0200179144 "
+        "1.01046945 103.560653]");
+    CHECK(at(bk7, 587.6) == doctest::Approx(1.5168).epsilon(2e-5));
+    auto const cauchy = with("Material \"dielectric\" \"float cauchy\" [1.5046 0.0042 0]");
+    CHECK(at(cauchy, 500) == doctest::Approx(1.5046 + 0.0042 / 0.25).epsilon(1e-6));
+    CHECK(
+        contains(error_in_world("Material \"dielectric\" \"float cauchy\" [1.5 0.004]"), "needs 3 numbers"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"float cauchy\" [-3 0 0]"),
+                   "gives no index of refraction"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"float eta\" 1.5 \"float cauchy\" [1.5 0.004 0]"),
+                   "not both"));
+}
+
+TEST_CASE("coats, transmission, measured, and the models that pbrt does not have") {
+    auto scene = with(
+        "Material \"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"float roughness\" 0.1 \"float "
+        "thickness\" "
+        "0.5 \"rgb albedo\" [0.5 0.5 0.5] \"float g\" 0.3 \"integer maxdepth\" 20 \"integer nsamples\" 4");
+    auto const& diffuse = material_of<CoatedDiffuseMaterial>(scene);
+    CHECK(as<RgbAlbedoSpd>(spectrum(scene, diffuse.reflectance)).rgb.x == 0.1f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, diffuse.coat.thickness).value == 0.5f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, diffuse.coat.g).value == 0.3f);
+    CHECK(diffuse.coat.albedo.valid());
+    CHECK(diffuse.coat.max_depth == 20);
+    CHECK(diffuse.coat.samples == 4);
+    CHECK(notes(scene).empty());
+    CHECK_FALSE(material_of<CoatedDiffuseMaterial>(with("Material \"coateddiffuse\"")).coat.albedo.valid());
+    scene = with(
+        "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" "
+        "\"metal-Ag-k\" \"float conductor.roughness\" 0.2 \"float interface.roughness\" 0.1 \"float "
+        "interface.eta\" 1.3");
+    auto const& metal = material_of<CoatedConductorMaterial>(scene);
+    CHECK(as<NamedSpd>(spectrum(scene, metal.conductor.eta)).name == "metal-Ag-eta");
+    CHECK(texture_of<ConstantFloatTexture>(scene, metal.conductor.roughness.u).value == 0.2f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, metal.coat.roughness.u).value == 0.1f);
+    CHECK(as<ConstantSpd>(metal.coat.eta).value == 1.3f);
+    CHECK(notes(scene).empty());
+    scene = with("Material \"diffusetransmission\" \"float scale\" 2");
+    CHECK(as<ConstantSpd>(spectrum(scene, material_of<DiffuseTransmissionMaterial>(scene).transmittance))
+              .value == 0.25f);
+    CHECK(material_of<DiffuseTransmissionMaterial>(scene).scale == 2.0f);
+    CHECK(contains(error_in_world("Material \"measured\""), "needs a \"string filename\""));
+    CHECK(material_of<MeasuredMaterial>(with("Material \"measured\" \"string filename\" \"/a.bsdf\""))
+              .file.path == "/a.bsdf");
+    scene = with("Material \"ashikhminshirley\" \"float nu\" 10 \"float nv\" 1000");
+    CHECK(texture_of<ConstantFloatTexture>(scene, material_of<AshikhminShirleyMaterial>(scene).nv).value ==
+          1000.0f);
+    CHECK_FALSE(
+        material_of<PlasticMaterial>(with("Material \"plastic\" \"bool nonlinear\" false")).nonlinear);
+    scene = with(
+        "Material \"metallicroughness\" \"rgb basecolor\" [1 0.5 0.2] \"float metallic\" 0 \"float "
+        "transmission\" 1 "
+        "\"bool thinwalled\" false \"rgb attenuationcolor\" [0.5 1 1] \"float attenuationdistance\" 2 "
+        "\"float "
+        "clearcoat\" 1 \"rgb sheencolor\" [1 1 1] \"float anisotropyrotation\" 90 \"float ior\" 1.4");
+    auto const& gltf = material_of<MetallicRoughnessMaterial>(scene);
+    CHECK_FALSE(gltf.transmission.thin);
+    // ln 2 / 2: after a length of 2 half the red is left.
+    CHECK(as<RgbUnboundedSpd>(gltf.transmission.interior.absorption).rgb.x ==
+          doctest::Approx(0.34657359).epsilon(1e-6));
+    CHECK(as<RgbUnboundedSpd>(gltf.transmission.interior.absorption).rgb.y == 0.0f);
+    CHECK(gltf.anisotropy.rotation == doctest::Approx(1.5707963));
+    CHECK(gltf.multiscatter);
+    CHECK(notes(scene).empty());
+    validate(scene);
+    CHECK(contains(error_in_world("Material \"metallicroughness\" \"float ior\" 0.5"), "at least 1"));
+}
+
+TEST_CASE("interiors: priority and absorption") {
+    auto const scene =
+        with("Material \"dielectric\" \"integer priority\" 3 \"rgb absorption\" [0.1 0.2 0.3]");
+    auto const& inside = material_of<DielectricMaterial>(scene).interior;
+    CHECK(inside.priority == 3);
+    CHECK(as<RgbUnboundedSpd>(inside.absorption).rgb.z == doctest::Approx(0.3));
+    CHECK(
+        contains(error_in_world("Material \"dielectric\" \"integer priority\" -1"), "must not be negative"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"rgb absorption\" [0.1 -1 0]"), "negative"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"rgb attenuationcolor\" [1 1 1] \"float "
+                                  "attenuationdistance\" 0"),
+                   "must be above 0"));
+    CHECK(contains(error_of([&] { validate(with("Material \"dielectric\" \"float absorption\" -1")); }),
+                   "must not be negative"));
+}
+
+TEST_CASE("normal maps and bumps belong to any surface, and to no mix") {
+    auto scene =
+        with("Texture \"d\" \"float\" \"constant\"\nMaterial \"dielectric\" \"texture displacement\" \"d\"");
+    CHECK(scene[scene.world().objects[0].material].displacement.valid());
+    scene = with("Material \"diffuse\" \"string normalmap\" \"/n.png\"");
+    auto const id = scene[scene.world().objects[0].material].normal_map.image;
+    REQUIRE(id.valid());
+    CHECK(scene.images[id.value].encoding == "linear");
+    CHECK(contains(notes(with("Material \"interface\" \"string normalmap\" \"/n.png\"")), "normalmap"));
 }
 
 TEST_CASE("unknown and old materials") {

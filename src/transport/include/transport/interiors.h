@@ -14,18 +14,19 @@ namespace nephroid {
 
 class Interiors {
   public:
-    /// Is the boundary of `m`, crossed inwards or outwards, inside a body that outranks it?
-    [[nodiscard]] bool hides(Assets const& assets, MaterialId m) const;
+    /// Is the boundary of `m`, met from outside (inwards) or from inside, within a body that outranks it?
+    [[nodiscard]] bool hides(Assets const& assets, MaterialId m, bool inwards) const;
     void cross(MaterialId m, bool inwards);
     /// Absorption where the path is, 1 / length.
     [[nodiscard]] Spectrum absorption(Assets const& assets, Wavelengths const& lambda) const;
     /// Makes the index of a boundary of `m` relative to what is around it there.
-    void immerse(Assets const& assets, MaterialId m, Wavelengths const& lambda, Bsdf& bsdf) const;
+    void immerse(Assets const& assets, MaterialId m, bool inwards, Wavelengths const& lambda,
+                 Bsdf& bsdf) const;
     [[nodiscard]] bool empty() const { return count_ == 0; }
 
   private:
-    /// The body that is there, `m` apart (once); none for empty space.
-    [[nodiscard]] MaterialId highest_without(Assets const& assets, MaterialId m) const;
+    /// The body that is there, once the one of `without` that was entered last is left; none for empty space.
+    [[nodiscard]] MaterialId highest(Assets const& assets, MaterialId without = {}) const;
 
     static constexpr std::size_t kMost = 8;  // bodies beyond that are forgotten
     std::array<MaterialId, kMost> bodies_;   // in the order in which they were entered
