@@ -89,7 +89,13 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
                     mapped(t.mapping);
                 }
             },
-            [](ScaleTexture const&) {}, [](MixTexture const&) {});
+            [](ScaleTexture const&) {}, [](MixTexture const&) {},
+            [&](DirectionMixTexture const& t) { d.direction = normalize(t.dir); },
+            [&](BilerpTexture const& t) { mapped(t.mapping); },
+            [&](DotsTexture const& t) { mapped(t.mapping); },
+            [&](auto const& noise) {
+                d.mapping = mapping_transform(scene, texture.where, noise.world_to_texture);
+            });
         textures_.push_back(d);
     }
     auto const needs_point = [&](TextureId id) { return id.valid() && !textures_[id.value].flat; };

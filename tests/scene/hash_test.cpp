@@ -65,7 +65,7 @@ TEST_CASE("fields are counted, arrays and optionals among them") {
     CHECK(count_fields(DiffuseMaterial{}) == 1);
     CHECK(count_fields(Camera{}) == 6);
     CHECK(count_fields(Instance{}) == 3);
-    CHECK(count_fields(ImageTexture{}) == 8);
+    CHECK(count_fields(ImageTexture{}) == 9);
     CHECK(count_fields(Mat4{}) == 1);
     CHECK(count_fields(Object{}) == 7);
 }

@@ -14,6 +14,7 @@ struct TextureData {
     RuntimeSpectrum spectrum;  // of a ConstantSpectrumTexture
     float value = 0;           // of a ConstantFloatTexture
     Transform mapping;         // world -> texture space, where the mapping has one
+    Vec3 direction{0, 1, 0};   // of a DirectionMixTexture, unit
     bool flat = false;         // a constant: needs no coordinates
 };
 struct MaterialData {
