@@ -117,8 +117,9 @@ TextureKind Textures::of_others(Definition const& d, Params& p, SpectrumRole rol
     if (d.kind == "dots") {
         DotsTexture t;
         t.mapping = mapping_2d(p, d.to_world);
-        t.inside = input(d, p, "inside", 1, role);
-        t.outside = input(d, p, "outside", 0, role);
+        // pbrt-v4 mixes the two up: "inside" is what lies around the dots. Scenes are made by what they look like there.
+        t.outside = input(d, p, "inside", 1, role);
+        t.inside = input(d, p, "outside", 0, role);
         return t;
     }
     CheckerboardTexture t;

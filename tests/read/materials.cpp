@@ -288,8 +288,8 @@ TEST_CASE("textures made of others and of noise, and their defaults") {
     s = spectrum_of("Texture \"t\" \"spectrum\" \"dots\" \"float vdelta\" 2");
     auto const& dots = texture_of<DotsTexture>(s, top(s));
     CHECK(as<UvMapping>(dots.mapping).dv == 2);
-    CHECK(value(s, dots.inside) == 1);
-    CHECK(value(s, dots.outside) == 0);
+    CHECK(value(s, dots.outside) == 1);  // pbrt-v4's "inside" is around the dots
+    CHECK(value(s, dots.inside) == 0);
     s = spectrum_of("Texture \"t\" \"spectrum\" \"directionmix\"");
     auto const& mix = texture_of<DirectionMixTexture>(s, top(s));
     CHECK(value(s, mix.tex1) == 0);
