@@ -1,4 +1,4 @@
-#include "noise.h"
+#include "model/noise.h"
 
 #include <algorithm>
 #include <array>

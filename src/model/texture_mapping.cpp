@@ -1,4 +1,4 @@
-#include "texture_mapping.h"
+#include "model/texture_mapping.h"
 
 #include "scene/match.h"
 

@@ -1,6 +1,6 @@
 #include "texture_procedural.h"
 
-#include "noise.h"
+#include "model/noise.h"
 
 #include <algorithm>
 #include <array>

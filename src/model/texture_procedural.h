@@ -2,7 +2,7 @@
 // (PBRT 4th ed., 10.4; 3rd ed., 10.5 and 10.6).
 #pragma once
 
-#include "texture_mapping.h"
+#include "model/texture_mapping.h"
 
 namespace nephroid {
 
