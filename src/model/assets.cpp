@@ -1,6 +1,5 @@
 #include "model/assets.h"
 
-#include "image/read.h"
 #include "scene/match.h"
 #include "spectrum/color.h"
 
@@ -9,17 +8,6 @@
 namespace nephroid {
 
 namespace {
-
-std::optional<Encoding> encoding_of(Scene const& scene, ImageFile const& file) {
-    if (file.encoding.empty()) return std::nullopt;
-    if (file.encoding == "linear") return Encoding::linear();
-    if (file.encoding == "sRGB") return Encoding::srgb();
-    if (file.encoding.rfind("gamma ", 0) == 0) {
-        float const g = std::strtof(file.encoding.c_str() + 6, nullptr);
-        if (g > 0.0f && std::isfinite(g)) return Encoding::power(g);
-    }
-    scene.fail(file.where, "unknown encoding \"" + file.encoding + "\"; use linear, sRGB or gamma <number>");
-}
 
 /// A table that ends within the visible range, kept at its end values: an index of refraction of 0 is none.
 Spd with_ends_kept(Spd spd) {
@@ -44,20 +32,10 @@ Transform mapping_transform(Scene const& scene, SourceLocation where, Mat4 const
 
 }  // namespace
 
-Assets::Assets(Scene const& scene) : scene_(&scene) {
+Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
     Spd const white = RgbIlluminantSpd{{1, 1, 1}};
     neutral_ = spectra_.compile(white, SpectrumRole::Illuminant)
                    .scaled(static_cast<float>(1.0 / photometric(white)));
-    for (ImageFile const& file : scene.images) {
-        auto const encoding = encoding_of(scene, file);
-        try {
-            Image image = read_image(file.path, encoding);
-            sanitize(image);
-            pyramids_.emplace_back(std::move(image));
-        } catch (Error const& e) {
-            throw Error(e.kind(), scene.locate(file.where) + ": " + e.what());
-        }
-    }
     for (Texture const& texture : scene.textures) {
         TextureData d;
         auto const mapped = [&](TextureMapping const& mapping) {
@@ -136,12 +114,6 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
             material.kind, [&](DielectricMaterial const& m) { compile_eta(m.eta); },
             [&](ThinDielectricMaterial const& m) { compile_eta(m.eta); }, [](auto const&) {});
     }
-}
-
-std::size_t Assets::image_bytes() const {
-    std::size_t n = 0;
-    for (Pyramid const& p : pyramids_) n += p.bytes();
-    return n;
 }
 
 }  // namespace nephroid

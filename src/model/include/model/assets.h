@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/pyramid.h"
+#include "model/pictures.h"
 #include "scene/scene.h"
 #include "spectrum/runtime.h"
 
@@ -33,11 +34,13 @@ class Assets {
     [[nodiscard]] Scene const& scene() const { return *scene_; }
     [[nodiscard]] TextureData const& data(TextureId id) const { return textures_[id.value]; }
     [[nodiscard]] MaterialData const& data(MaterialId id) const { return materials_[id.value]; }
-    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pyramids_[id.value]; }
+    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pictures_[id]; }
     /// White light of luminance 1 (D65): what turns an albedo into a colour.
     [[nodiscard]] RuntimeSpectrum const& neutral_illuminant() const { return neutral_; }
     SpectrumStore& spectra() { return spectra_; }
-    [[nodiscard]] std::size_t image_bytes() const;
+    /// Memory of the pictures, and how many files they are.
+    [[nodiscard]] std::size_t image_bytes() const { return pictures_.bytes(); }
+    [[nodiscard]] std::size_t image_files() const { return pictures_.files(); }
     [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes(); }
 
   private:
@@ -46,7 +49,7 @@ class Assets {
     RuntimeSpectrum neutral_;
     std::vector<TextureData> textures_;
     std::vector<MaterialData> materials_;
-    std::vector<Pyramid> pyramids_;
+    Pictures pictures_;
 };
 
 }  // namespace nephroid
