@@ -28,15 +28,24 @@ constexpr std::array<std::uint8_t, 256> kPermutation{
 
 std::uint8_t permuted(int i) { return kPermutation[static_cast<std::size_t>(i & 255)]; }
 
-/// d · g, with g the gradient of a lattice point: one of the 12 directions to the middles of a cube's edges, four of them
-/// twice to make 16.
-float gradient(int x, int y, int z, Vec3 d) {
-    int const h = permuted(permuted(permuted(x) + y) + z) & 15;
-    bool const repeated = h == 12 || h == 13;
-    float const u = h < 8 || repeated ? d.x : d.y;
-    float const v = h < 4 || repeated ? d.y : d.z;
-    return ((h & 1) != 0 ? -u : u) + ((h & 2) != 0 ? -v : v);
-}
+/// The gradient of a lattice point by the last four bits of its hash: one of the 12 directions to the middles of a cube's
+/// edges, four of them twice to make 16. Which four is pbrt's choice; Perlin has two of them in the other order.
+constexpr std::array<std::array<float, 3>, 16> kGradients{{{1, 1, 0},
+                                                           {-1, 1, 0},
+                                                           {1, -1, 0},
+                                                           {-1, -1, 0},
+                                                           {1, 0, 1},
+                                                           {-1, 0, 1},
+                                                           {1, 0, -1},
+                                                           {-1, 0, -1},
+                                                           {0, 1, 1},
+                                                           {0, -1, 1},
+                                                           {0, 1, -1},
+                                                           {0, -1, -1},
+                                                           {1, 1, 0},
+                                                           {-1, 1, 0},
+                                                           {0, 1, -1},
+                                                           {0, -1, -1}}};
 
 /// 6 t^5 - 15 t^4 + 10 t^3: first and second derivatives are 0 at both ends, so that cells join smoothly.
 float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
@@ -89,10 +98,16 @@ float perlin_noise(Vec3 p) {
     int const x = static_cast<int>(cell.x), y = static_cast<int>(cell.y), z = static_cast<int>(cell.z);
     Vec3 const d = p - cell;
     float const u = fade(d.x), v = fade(d.y), w = fade(d.z);
+    // A lattice point's hash is p[p[p[x] + y] + z]: what neighbours share is looked up once.
+    std::array<int, 2> const by_x{permuted(x), permuted(x + 1)};
     auto const row = [&](int dy, int dz) {
-        Vec3 const from{d.x, d.y - static_cast<float>(dy), d.z - static_cast<float>(dz)};
-        return lerp(u, gradient(x, y + dy, z + dz, from),
-                    gradient(x + 1, y + dy, z + dz, from - Vec3{1, 0, 0}));
+        std::array<float, 2> plane{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            auto const& g = kGradients[permuted(permuted(by_x[i] + y + dy) + z + dz) & 15];
+            plane[i] = g[0] * (d.x - static_cast<float>(i)) + g[1] * (d.y - static_cast<float>(dy)) +
+                       g[2] * (d.z - static_cast<float>(dz));
+        }
+        return lerp(u, plane[0], plane[1]);
     };
     return lerp(w, lerp(v, row(0, 0), row(1, 0)), lerp(v, row(0, 1), row(1, 1)));
 }

@@ -37,14 +37,10 @@ MappedPoint spherical(Transform const& to_texture, TexturePoint const& at) {
 
 }  // namespace
 
-MappedPoint map_point(TextureMapping const& mapping, Transform const& to_texture, TexturePoint const& at) {
+MappedPoint map_point_in_space(TextureMapping const& mapping, Transform const& to_texture,
+                               TexturePoint const& at) {
     return match(
-        mapping,
-        [&](UvMapping const& m) {
-            return MappedPoint{{m.su * at.uv.x + m.du, m.sv * at.uv.y + m.dv},
-                               {m.su * at.duv_dx.x, m.sv * at.duv_dx.y},
-                               {m.su * at.duv_dy.x, m.sv * at.duv_dy.y}};
-        },
+        mapping, [](UvMapping const&) { return MappedPoint{}; },
         [&](SphericalMapping const&) { return spherical(to_texture, at); },
         [&](CylindricalMapping const&) {
             Vec3 const v = to_texture.point(at.p);

@@ -5,35 +5,32 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace nephroid {
 
 namespace {
 
-/// In doubles, because differences of differences cancel.
-struct SquareWave {
-    /// +1 in [0, 1), -1 in [1, 2), with period 2.
-    static double at(double x) {
-        double const whole = std::floor(x);
-        return whole - 2 * std::floor(whole / 2) == 0 ? 1 : -1;
-    }
-    /// Its second antiderivative, without the part that is linear in x, which second differences do not see.
-    static double twice_integrated(double x) {
-        double const y = x / 2 - std::floor(x / 2) - 0.5;
-        return y * (1 - 2 * std::abs(y));
-    }
-    /// Its average around x under a triangle that reaches r to either side: the second difference of the above.
-    static double averaged(double x, double r) {
-        if (!std::isfinite(x) || !std::isfinite(r)) return 0;
-        if (std::floor(x - r) == std::floor(x + r)) return at(x);
-        double const sum = twice_integrated(x + r) - 2 * twice_integrated(x) + twice_integrated(x - r);
-        return std::clamp(sum / (r * r), -1.0, 1.0);
-    }
-};
+/// The second antiderivative of a square wave, +1 in [0, 1) and -1 in [1, 2) with period 2, without the part that is linear
+/// in x, which second differences do not see. In doubles, because these differences cancel.
+double square_wave_twice_integrated(double x) {
+    double const y = x / 2 - std::floor(x / 2) - 0.5;
+    return y * (1 - 2 * std::abs(y));
+}
+
+/// The square wave's average around x under a triangle that reaches r to either side: the second difference of the above.
+double square_wave_averaged(double x, double r) {
+    if (!(std::abs(x) + r < std::numeric_limits<double>::infinity())) return 0;
+    double const whole = std::floor(x - r);
+    if (whole == std::floor(x + r)) return whole - 2 * std::floor(whole / 2) == 0 ? 1 : -1;
+    double const sum = square_wave_twice_integrated(x + r) - 2 * square_wave_twice_integrated(x) +
+                       square_wave_twice_integrated(x - r);
+    return std::clamp(sum / (r * r), -1.0, 1.0);
+}
 
 /// One coordinate of a checkerboard, filtered over one and a half times the longer of the footprint's two steps.
 double stripes(float x, float dx, float dy) {
-    return SquareWave::averaged(static_cast<double>(x),
+    return square_wave_averaged(static_cast<double>(x),
                                 1.5 * static_cast<double>(max(std::abs(dx), std::abs(dy))));
 }
 
