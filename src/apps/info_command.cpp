@@ -102,8 +102,8 @@ int run(InfoOptions const& o) {
         print("bounds      ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})\n", b.lo.x, b.lo.y, b.lo.z,
               b.hi.x, b.hi.y, b.hi.z);
     print("materials   {}\n", text_of(tally(s.materials)));
-    print("textures    {}; {} picture files, {} with their smaller levels\n", s.textures.size(),
-          world.assets().image_files(), bytes_text(m.images));
+    print("textures    {}; pictures {} in {} {}\n", s.textures.size(), bytes_text(m.images),
+          world.assets().image_files(), world.assets().image_files() == 1 ? "file" : "files");
     print("lights      {}; {} to choose from in all\n", text_of(tally(s.lights)), c.lights);
     print("memory      {}: meshes {}, acceleration {}, images {}, lights {}\n", bytes_text(m.total()),
           bytes_text(m.meshes), bytes_text(m.bvh), bytes_text(m.images), bytes_text(m.lights));

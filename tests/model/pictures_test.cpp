@@ -131,6 +131,14 @@ TEST_CASE("pictures that store light are one whatever encoding is asked for; dee
     Pictures const light(scene_of({{folder.file("a.pfm"), ""}, {folder.file("a.pfm"), "sRGB"}}));
     CHECK(light.files() == 1);
     CHECK(&light[ImageId{0}] == &light[ImageId{1}]);
+    // Sixteen bits are decoded when they are read, so each encoding has numbers of its own.
+    write_png(folder.file("deep.png"), noise(PixelFormat::Float, 8, 8, 1), 16);
+    Pictures const deep(
+        scene_of({{folder.file("deep.png"), "linear"}, {folder.file("deep.png"), "gamma 2"}}));
+    CHECK(deep.files() == 1);
+    CHECK(deep.bytes() == 2 * 4 * (64 + 16 + 4 + 1));
+    float const stored = deep[ImageId{0}].texel(0, 3, 3, 0);
+    CHECK(deep[ImageId{1}].texel(0, 3, 3, 0) == doctest::Approx(stored * stored).epsilon(1e-4));
 }
 
 TEST_CASE("bytes stay bytes, halves stay halves, and floats become halves only where nothing is lost") {
