@@ -191,20 +191,43 @@ void scattering() {
     add("frame/from_z", directions(), [](Vec3 n) { return frame_from_z(n); });
 }
 
+/// The scene's textures, and one of each kind that it has not.
+Scene with_all_textures(Scene scene) {
+    auto const add = [&](TextureKind kind) { return scene.add(Texture{std::move(kind), {}}); };
+    TextureId const red =
+        add(ConstantSpectrumTexture{RgbAlbedoSpd{{0.8f, 0.1f, 0.1f}}, SpectrumRole::Albedo});
+    TextureId const gray = add(ConstantSpectrumTexture{ConstantSpd{0.5f}, SpectrumRole::Albedo});
+    add(DirectionMixTexture{red, gray, {0, 1, 1}});
+    add(BilerpTexture{{}, red, gray, gray, red});
+    add(DotsTexture{UvMapping{14, 7, 0, 0}, red, gray});
+    add(FbmTexture{});
+    add(WrinkledTexture{});
+    add(WindyTexture{});
+    add(MarbleTexture{});
+    return scene;
+}
+
 void textures() {
-    static World const world = compile(read_scene(bench::scene_file("shapes.pbrt")));
+    static World const world = compile(with_all_textures(read_scene(bench::scene_file("shapes.pbrt"))));
     static auto const points = table([](std::uint64_t i) {
         TexturePoint t;
         t.uv = {uniform(i, 21), uniform(i, 22)};
         t.p = {uniform(i, 23), uniform(i, 24), uniform(i, 25)};
         t.duv_dx = {0.004f, 0.001f};
         t.duv_dy = {0.001f, 0.002f};
+        t.dpdx = {0.004f, 0.001f, 0};
+        t.dpdy = {0, 0.001f, 0.002f};
         return t;
     });
     auto const& textures = world.scene().textures;
     std::array<bool, std::variant_size_v<TextureKind>> seen{};
-    constexpr std::array kNames{
-        "constant_float", "constant_spectrum", "imagemap", "checkerboard", "scale", "mix"};
+    constexpr std::array kNames{"constant_float", "constant_spectrum",
+                                "imagemap",       "checkerboard",
+                                "scale",          "mix",
+                                "directionmix",   "bilerp",
+                                "dots",           "fbm",
+                                "wrinkled",       "windy",
+                                "marble"};
     static_assert(kNames.size() == std::variant_size_v<TextureKind>);
     for (std::uint32_t i = 0; i < textures.size(); ++i) {
         std::size_t const kind = textures[i].kind.index();

@@ -1,6 +1,5 @@
 #include "model/assets.h"
 
-#include "image/read.h"
 #include "scene/fields.h"
 #include "scene/match.h"
 #include "spectrum/color.h"
@@ -10,17 +9,6 @@
 namespace nephroid {
 
 namespace {
-
-std::optional<Encoding> encoding_of(Scene const& scene, ImageFile const& file) {
-    if (file.encoding.empty()) return std::nullopt;
-    if (file.encoding == "linear") return Encoding::linear();
-    if (file.encoding == "sRGB") return Encoding::srgb();
-    if (file.encoding.rfind("gamma ", 0) == 0) {
-        float const g = std::strtof(file.encoding.c_str() + 6, nullptr);
-        if (g > 0.0f && std::isfinite(g)) return Encoding::power(g);
-    }
-    scene.fail(file.where, "unknown encoding \"" + file.encoding + "\"; use linear, sRGB or gamma <number>");
-}
 
 /// A table that ends within the visible range, kept at its end values: an index of refraction of 0 is none.
 Spd with_ends_kept(Spd spd) {
@@ -85,20 +73,10 @@ bool is_oriented(M const& m) {
 
 }  // namespace
 
-Assets::Assets(Scene const& scene) : scene_(&scene) {
+Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
     Spd const white = RgbIlluminantSpd{{1, 1, 1}};
     neutral_ = spectra_.compile(white, SpectrumRole::Illuminant)
                    .scaled(static_cast<float>(1.0 / photometric(white)));
-    for (ImageFile const& file : scene.images) {
-        auto const encoding = encoding_of(scene, file);
-        try {
-            Image image = read_image(file.path, encoding);
-            sanitize(image);
-            pyramids_.emplace_back(std::move(image));
-        } catch (Error const& e) {
-            throw Error(e.kind(), scene.locate(file.where) + ": " + e.what());
-        }
-    }
     for (Texture const& texture : scene.textures) {
         TextureData d;
         auto const mapped = [&](TextureMapping const& mapping) {
@@ -130,7 +108,13 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
                     mapped(t.mapping);
                 }
             },
-            [](ScaleTexture const&) {}, [](MixTexture const&) {});
+            [](ScaleTexture const&) {}, [](MixTexture const&) {},
+            [&](DirectionMixTexture const& t) { d.direction = normalize(t.dir); },
+            [&](BilerpTexture const& t) { mapped(t.mapping); },
+            [&](DotsTexture const& t) { mapped(t.mapping); },
+            [&](auto const& noise) {
+                d.mapping = mapping_transform(scene, texture.where, noise.world_to_texture);
+            });
         textures_.push_back(d);
     }
     materials_.resize(scene.materials.size());
@@ -179,12 +163,6 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
         return d;
     };
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) look(MaterialId{i});
-}
-
-std::size_t Assets::image_bytes() const {
-    std::size_t n = 0;
-    for (Pyramid const& p : pyramids_) n += p.bytes();
-    return n;
 }
 
 }  // namespace nephroid

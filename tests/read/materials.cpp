@@ -388,14 +388,81 @@ TEST_CASE("unused textures are checked, but not kept") {
     CHECK(contains(notes(scene), "did you mean \"uscale\"?"));
 }
 
-TEST_CASE("textures that are not rendered yet") {
-    for (char const* text :
-         {"\"spectrum\" \"bilerp\"", "\"spectrum\" \"dots\"", "\"float\" \"fbm\"", "\"spectrum\" \"marble\"",
-          "\"float\" \"windy\"", "\"float\" \"wrinkled\" \"integer octaves\" 4",
-          "\"spectrum\" \"directionmix\"", "\"float\" \"ptex\""}) {
-        CAPTURE(text);
-        auto const scene = with(std::string("Texture \"t\" ") + text);
-        CHECK(scene.notes.size() == 1);
-        CHECK(contains(notes(scene), "is not rendered yet"));
-    }
+TEST_CASE("textures made of others and of noise, and their defaults") {
+    auto const spectrum_of = [](std::string const& text) {
+        return with(text + " Material \"diffuse\" \"texture reflectance\" \"t\"");
+    };
+    auto const float_of = [](std::string const& text) {
+        return with("Translate 1 0 0 " + text + R"( Texture "m" "spectrum" "mix" "texture amount" "t"
+            Material "diffuse" "texture reflectance" "m")");
+    };
+    auto const top = [](Scene const& s) { return material_of<DiffuseMaterial>(s).reflectance; };
+    auto const amount = [&](Scene const& s) { return texture_of<MixTexture>(s, top(s)).amount; };
+    auto const value = [](Scene const& s, TextureId id) { return as<ConstantSpd>(spectrum(s, id)).value; };
+
+    auto s = spectrum_of("Texture \"t\" \"spectrum\" \"bilerp\" \"float uscale\" 3");
+    auto const& bilerp = texture_of<BilerpTexture>(s, top(s));
+    CHECK(as<UvMapping>(bilerp.mapping).su == 3);
+    CHECK(value(s, bilerp.v00) == 0);
+    CHECK(value(s, bilerp.v01) == 1);
+    CHECK(value(s, bilerp.v10) == 0);
+    CHECK(value(s, bilerp.v11) == 1);
+    s = spectrum_of("Texture \"t\" \"spectrum\" \"dots\" \"float vdelta\" 2");
+    auto const& dots = texture_of<DotsTexture>(s, top(s));
+    CHECK(as<UvMapping>(dots.mapping).dv == 2);
+    CHECK(value(s, dots.outside) == 1);  // pbrt-v4's "inside" is around the dots
+    CHECK(value(s, dots.inside) == 0);
+    s = spectrum_of("Texture \"t\" \"spectrum\" \"directionmix\"");
+    auto const& mix = texture_of<DirectionMixTexture>(s, top(s));
+    CHECK(value(s, mix.tex1) == 0);
+    CHECK(value(s, mix.tex2) == 1);
+    CHECK(mix.dir == Vec3{0, 1, 0});
+    // The direction turns with the current transform, and comes out with length 1.
+    s = spectrum_of(
+        "Scale 1 2 1 Rotate 90 0 0 1 Texture \"t\" \"spectrum\" \"directionmix\" \"vector3 dir\" [5 0 0]");
+    CHECK(std::abs(texture_of<DirectionMixTexture>(s, top(s)).dir.y - 1) < 1e-6f);
+    s = spectrum_of("Translate 0 1 0 Texture \"t\" \"spectrum\" \"marble\"");
+    auto const& marble = texture_of<MarbleTexture>(s, top(s));
+    CHECK(marble.octaves == 8);
+    CHECK(marble.roughness == 0.5f);
+    CHECK(marble.scale == 1);
+    CHECK(marble.variation == 0.2f);
+    CHECK(marble.world_to_texture.m[1][3] == -1);
+    CHECK(notes(s).empty());
+
+    s = float_of("Texture \"t\" \"float\" \"fbm\"");
+    auto const& fbm = texture_of<FbmTexture>(s, amount(s));
+    CHECK(fbm.octaves == 8);
+    CHECK(fbm.roughness == 0.5f);
+    CHECK(fbm.world_to_texture.m[0][3] == -1);
+    s = float_of("Texture \"t\" \"float\" \"wrinkled\" \"integer octaves\" 4 \"float roughness\" 0.25");
+    CHECK(texture_of<WrinkledTexture>(s, amount(s)).octaves == 4);
+    CHECK(texture_of<WrinkledTexture>(s, amount(s)).roughness == 0.25f);
+    s = float_of("Texture \"t\" \"float\" \"windy\"");
+    CHECK(texture_of<WindyTexture>(s, amount(s)).world_to_texture.m[0][3] == -1);
+    validate(s);
+    s = float_of("Texture \"t\" \"float\" \"bilerp\" \"float v00\" 0.25");
+    CHECK(texture_of<ConstantFloatTexture>(s, texture_of<BilerpTexture>(s, amount(s)).v00).value == 0.25f);
+    CHECK(notes(s).empty());
+    s = with("Texture \"t\" \"float\" \"ptex\" \"string filename\" \"a.ptx\"");
+    CHECK(notes(s) == "t.pbrt:2: Texture \"t\" \"ptex\": is not rendered: a constant 0.5 stands in\n");
+}
+
+TEST_CASE("textures of the wrong type, and numbers out of range") {
+    auto const error = [](std::string const& text) { return error_in_world("Texture \"t\" " + text); };
+    for (char const* kind : {"fbm", "wrinkled", "windy"})
+        CHECK(contains(error("\"spectrum\" \"" + std::string(kind) + "\""), "t.pbrt:2: Texture \"t\""));
+    CHECK(contains(error("\"spectrum\" \"fbm\""), "is a float texture only"));
+    CHECK(contains(error("\"float\" \"marble\""), "is a spectrum texture only"));
+    CHECK(contains(error("\"float\" \"fbm\" \"integer octaves\" -1"), "\"octaves\" must be 0 to 64"));
+    CHECK(contains(error("\"float\" \"fbm\" \"integer octaves\" 2000000000"), "must be 0 to 64"));
+    CHECK(contains(error("\"float\" \"directionmix\" \"vector3 dir\" [0 0 0]"), "without length"));
+    CHECK(contains(error("\"float\" \"checkerboard\" \"integer dimension\" 4"), "must be 2 or 3"));
+    std::string const picture = "\"spectrum\" \"imagemap\" \"string filename\" \"a.png\" ";
+    CHECK(contains(error(picture + "\"float maxanisotropy\" 0.5"), "must be at least 1"));
+    CHECK(contains(error(picture + "\n\"string encoding\" \"srgb\""), "must be \"linear\", \"sRGB\""));
+    for (char const* encoding : {"gamma", "gamma x", "gamma 0", "gamma -1", "gamma nan", "linear ", "SRGB"})
+        CHECK(contains(error(picture + "\"string encoding\" \"" + encoding + "\""), "\"encoding\" must be"));
+    CHECK(contains(error(picture + "\"string filter\" \"box\""), "use one of"));
+    CHECK(contains(error(picture + "\"string wrap\" \"mirror\""), "use one of"));
 }

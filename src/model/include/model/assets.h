@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/pyramid.h"
+#include "model/pictures.h"
 #include "scene/scene.h"
 #include "spectrum/runtime.h"
 
@@ -14,6 +15,7 @@ struct TextureData {
     RuntimeSpectrum spectrum;  // of a ConstantSpectrumTexture
     float value = 0;           // of a ConstantFloatTexture
     Transform mapping;         // world -> texture space, where the mapping has one
+    Vec3 direction{0, 1, 0};   // of a DirectionMixTexture, unit
     bool flat = false;         // a constant: needs no coordinates
 };
 struct MaterialData {
@@ -37,11 +39,13 @@ class Assets {
     [[nodiscard]] Scene const& scene() const { return *scene_; }
     [[nodiscard]] TextureData const& data(TextureId id) const { return textures_[id.value]; }
     [[nodiscard]] MaterialData const& data(MaterialId id) const { return materials_[id.value]; }
-    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pyramids_[id.value]; }
+    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pictures_[id]; }
     /// White light of luminance 1 (D65): what turns an albedo into a colour.
     [[nodiscard]] RuntimeSpectrum const& neutral_illuminant() const { return neutral_; }
     SpectrumStore& spectra() { return spectra_; }
-    [[nodiscard]] std::size_t image_bytes() const;
+    /// Memory of the pictures, and how many files they are.
+    [[nodiscard]] std::size_t image_bytes() const { return pictures_.bytes(); }
+    [[nodiscard]] std::size_t image_files() const { return pictures_.files(); }
     [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes(); }
 
   private:
@@ -50,7 +54,7 @@ class Assets {
     RuntimeSpectrum neutral_;
     std::vector<TextureData> textures_;
     std::vector<MaterialData> materials_;
-    std::vector<Pyramid> pyramids_;
+    Pictures pictures_;
 };
 
 }  // namespace nephroid
