@@ -32,11 +32,12 @@ struct Pair {
 };
 std::optional<Pair> pair_of(Vec3 wo, Vec3 wi) {
     if (!same_hemisphere(wo, wi)) return std::nullopt;
-    Vec3 h = normalize(wo + wi);
-    float const k_dot_h = dot(wo, h);
-    if (wo.z < 0.0f) h.z = -h.z;
-    if (!(h.z > 0.0f && k_dot_h > 0.0f)) return std::nullopt;
-    return Pair{h, abs_cos_theta(wo), abs_cos_theta(wi), min(k_dot_h, 1.0f)};
+    Vec3 const sum = wo + wi;
+    float const size = length(sum);
+    if (!(size > 0.0f)) return std::nullopt;
+    // Of two unit vectors: the same from either side, to the last bit.
+    float const k_dot_h = min(0.5f * size, 1.0f);
+    return Pair{Vec3{sum.x, sum.y, std::abs(sum.z)} / size, abs_cos_theta(wo), abs_cos_theta(wi), k_dot_h};
 }
 
 /// Density of half vectors, eq. 6. The cosine is near 1 where exponents are large: its logarithm comes from the sine.
@@ -126,10 +127,22 @@ std::optional<BsdfSample> sample(AshikhminShirleyBsdf const& b, Vec3 wo, float u
     return result;
 }
 
-/// Of the base exactly; of the lobe its Fresnel factor at wo, from which what it loses below the surface is not taken off.
+/// Of the base exactly; of the lobe, whose part below the surface is lost, the mean over 64 strata of its samples: within 0.04.
 Spectrum albedo(AshikhminShirleyBsdf const& b, Vec3 wo) {
-    float const cos1 = abs_cos_theta(wo);
-    return fresnel(b, cos1) + passage(cos1) * b.reflectance * (Spectrum(1.0f) - b.specular);
+    constexpr int kSide = 8;
+    Vec3 const up{wo.x, wo.y, abs_cos_theta(wo)};
+    Spectrum lobe;
+    for (int x = 0; x < kSide; ++x)
+        for (int y = 0; y < kSide; ++y) {
+            Vec3 const h = sample_half_vector(
+                b, {(static_cast<float>(x) + 0.5f) / kSide, (static_cast<float>(y) + 0.5f) / kSide});
+            float const k_dot_h = dot(up, h);
+            float const cos2 = 2.0f * k_dot_h * h.z - up.z;
+            if (!(cos2 > 0.0f && k_dot_h > 0.0f)) continue;
+            lobe += fresnel(b, min(k_dot_h, 1.0f)) * (cos2 / max(cos2, up.z));  // f cos2 / p
+        }
+    return lobe / sqr(static_cast<float>(kSide)) +
+           passage(up.z) * b.reflectance * (Spectrum(1.0f) - b.specular);
 }
 
 void make(AshikhminShirleyMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
