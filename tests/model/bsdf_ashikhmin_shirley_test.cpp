@@ -103,7 +103,7 @@ TEST_CASE("ashikhmin-shirley: the lobe's density is the Jacobian of its warp") {
                     auto const s = sample(b, wo, 0.5f, u, Mode::Radiance, HemisphereSampling::Cosine);
                     return s ? std::optional(s->wi) : std::nullopt;
                 },
-                [&](Vec3 wi) { return pdf(b, wo, wi, HemisphereSampling::Cosine); }, 5e-3);
+                [&](Vec3 wi) { return pdf(b, wo, wi, HemisphereSampling::Cosine); });
     }
 }
 
@@ -121,8 +121,8 @@ TEST_CASE("ashikhmin-shirley: f is equations 4 and 5") {
             double const expected = printed(0.7, 0.2, n.u, n.v, wo, s->wi);
             // Half vectors at 1e-6 of the floats, to the power 1e5.
             double const within = 2e-5 + 2e-8 * std::sqrt(n.u + n.v) * 50;
-            CHECK(static_cast<double>(evaluate(b, wo, s->wi, Mode::Radiance)[0]) ==
-                  doctest::Approx(expected).epsilon(within));
+            auto const f = static_cast<double>(evaluate(b, wo, s->wi, Mode::Radiance)[0]);
+            CHECK(near(f, expected, within));
         }
     }
 }

@@ -160,7 +160,8 @@ TEST_CASE("measured: energy, and the table of albedos") {
                 }
             auto const a = directional_albedo(b, wo, c, 1000).total();
             MESSAGE("theta_o ", theta, ": albedo ", a, ", of the formula ", reflectance * sum);
-            CHECK(a == doctest::Approx(reflectance * sum).epsilon(theta < 1 ? 0.01 : 0.03));
+            // Between the last nodes of theta_i, and where spectra is cut by the horizon, less.
+            CHECK(near(a, reflectance * sum, theta < 1 ? 0.01 : 0.06));
         }
     }
 }

@@ -113,6 +113,42 @@ TEST_CASE("bilinear warp: samples by the density, which is the slices' mixture")
     }
 }
 
+TEST_CASE("bilinear warp: the density is the Jacobian of the warp") {
+    auto const f = nodes();
+    BilinearWarp const warp(f, kWidth, kHeight);
+    ParameterGrid const g = grid();
+    Random r(6);
+    int looked = 0;
+    double worst = 0;
+    for (int i = 0; i < 4000; ++i) {
+        SliceMix const mix =
+            g.mix(static_cast<float>(r.uniform(-1, 0.5)), static_cast<float>(r.uniform(0, 4)));
+        Vec2 const u{0.05f + 0.9f * r.unit(), 0.05f + 0.9f * r.unit()};
+        auto const same_cell = [&](Vec2 a, Vec2 b) {
+            return static_cast<int>(a.x * (kWidth - 1)) == static_cast<int>(b.x * (kWidth - 1)) &&
+                   static_cast<int>(a.y * (kHeight - 1)) == static_cast<int>(b.y * (kHeight - 1));
+        };
+        bool crease = false;
+        auto const element = [&](float h) {
+            Vec2 const a = warp.sample(mix, u + Vec2{h, 0}).p, b = warp.sample(mix, u - Vec2{h, 0}).p;
+            Vec2 const c = warp.sample(mix, u + Vec2{0, h}).p, d = warp.sample(mix, u - Vec2{0, h}).p;
+            crease = crease || !same_cell(a, b) || !same_cell(c, d) || !same_cell(a, c);
+            Vec2 const x = a - b, y = c - d;
+            return std::abs(static_cast<double>(x.x) * static_cast<double>(y.y) -
+                            static_cast<double>(x.y) * static_cast<double>(y.x)) /
+                   (4.0 * static_cast<double>(h * h));
+        };
+        double const coarse = element(0x1p-7f), fine = element(0x1p-8f);
+        if (crease || std::abs(coarse / fine - 1) > 0.02) continue;  // near a node of density 0
+        ++looked;
+        worst = std::max(
+            worst, std::abs((4 * fine - coarse) / 3 * static_cast<double>(warp.sample(mix, u).pdf) - 1));
+    }
+    INFO(looked, " looked at");
+    CHECK(looked > 500);
+    CHECK(worst < 1e-3);
+}
+
 TEST_CASE("bilinear warp: empty slices are uniform, negative nodes are 0, and ends of the square hold") {
     std::vector<float> f(2 * 4);
     f[4] = -1, f[5] = 1, f[6] = -2, f[7] = 1;
