@@ -1,10 +1,12 @@
 #include "model/assets.h"
 
+#include "measured_tables.h"
 #include "scene/fields.h"
 #include "scene/match.h"
 #include "spectrum/color.h"
 
 #include <functional>
+#include <map>
 
 namespace nephroid {
 
@@ -118,6 +120,7 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
         textures_.push_back(d);
     }
     materials_.resize(scene.materials.size());
+    std::map<std::string, std::shared_ptr<MeasuredTables const>> measured;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         Material const& material = scene.materials[i];
         MaterialData& d = materials_[i];
@@ -129,6 +132,15 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
             }
         };
         if (Spd const* const eta = index_of(material.kind)) d.eta = compiled(with_ends_kept(*eta));
+        if (auto const* const m = std::get_if<MeasuredMaterial>(&material.kind)) {
+            auto& tables = measured[m->file.path];
+            try {
+                if (!tables) tables = std::make_shared<MeasuredTables const>(m->file.path);
+            } catch (Error const& e) {
+                throw Error(e.kind(), scene.locate(m->file.where) + ": " + e.what());
+            }
+            d.measured = tables;
+        }
         if (Interior const* const inside = interior_of(material.kind)) {
             d.absorption = compiled(with_ends_kept(inside->absorption));
             d.priority = inside->priority;

@@ -7,9 +7,12 @@
 #include "scene/scene.h"
 #include "spectrum/runtime.h"
 
+#include <memory>
 #include <vector>
 
 namespace nephroid {
+
+class MeasuredTables;  // a measured material's file; see measured_tables.h
 
 struct TextureData {
     RuntimeSpectrum spectrum;  // of a ConstantSpectrumTexture
@@ -19,9 +22,10 @@ struct TextureData {
     bool flat = false;         // a constant: needs no coordinates
 };
 struct MaterialData {
-    RuntimeSpectrum eta;         // of a dielectric, thin or a coat
-    RuntimeSpectrum absorption;  // inside, 1 / length
-    int priority = 0;            // of its interior (scene/material.h)
+    RuntimeSpectrum eta;                             // of a dielectric, thin or a coat
+    RuntimeSpectrum absorption;                      // inside, 1 / length
+    std::shared_ptr<MeasuredTables const> measured;  // of a measured material; one of each file
+    int priority = 0;                                // of its interior (scene/material.h)
     bool encloses = false;   // its interior has a priority or absorbs: paths have to know that they are in it
     bool textured = false;   // needs uv and tangents at the hit
     bool oriented = false;   // the shading frame's x axis matters
