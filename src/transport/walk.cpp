@@ -21,13 +21,15 @@ float emission_weight(Walk const& walk, EmissionWeight how, float light_pdf) {
 constexpr int kMaxInterfaces = 4096;
 
 /// The pixel's cone cut by the surface's tangent plane: an ellipse, longer where the ray grazes it ("ray cones", Akenine-Moeller
-/// et al. 2021). The cone is as wide as the path is long, whatever it was reflected by. Fixed by the camera, not by the pass.
+/// et al. 2021). The cone is as wide as the path is long, whatever it was reflected by. Fixed by the camera, not by the number of
+/// passes, which no pass knows: an eighth of a pixel, what pbrt-v4 comes down to at 64 samples. The passes average over the rest.
 TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit const& hit) {
     TexturePoint at;
     at.p = hit.s.p;
     at.uv = hit.s.uv;
     at.n = hit.s.ng;
-    float const width = c.job.camera().pixel_spread() * (walk.cone + hit.t);
+    constexpr float kShareOfPixel = 0.125f;
+    float const width = kShareOfPixel * c.job.camera().pixel_spread() * (walk.cone + hit.t);
     if (!(width > 0.0f)) return at;
     // Axes in the tangent plane, across the plane of incidence and in it.
     Vec3 const d = walk.ray.d;
