@@ -72,9 +72,8 @@ MeasuredTables::MeasuredTables(std::filesystem::path const& path) {
 void MeasuredTables::read_angles(TensorFile const& file) {
     std::vector<float> const theta = ascending(file, "theta_i");
     std::vector<float> const phi = ascending(file, "phi_i");
-    // A degree's thousandth of room for rounding.
-    float const room = 1e-5f;
-    if (theta.front() < -room || theta.back() > kPiOver2 + room)
+    // Room for rounding at the horizon.
+    if (theta.front() < 0.0f || theta.back() > kPiOver2 + 1e-5f)
         file.fail("the field \"theta_i\" must be angles from 0 to pi/2, in radians; get a complete copy");
     isotropic_ = phi.size() <= 2;
     if (!isotropic_) {
