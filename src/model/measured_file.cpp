@@ -79,7 +79,7 @@ void MeasuredTables::read_angles(TensorFile const& file) {
     if (!isotropic_) {
         float const range = phi.back() - phi.front();
         symmetry_ = static_cast<int>(std::lround(clamp(kTwoPi / range, 0.0f, 100.0f)));
-        // Half of the circle stands for a material that looks alike after half a turn, a quarter for a mirrored one (eq. 20).
+        // Half of the circle stands for a material that looks alike after half a turn, a quarter for a mirrored one.
         bool const known = symmetry_ == 1 || symmetry_ == 2 || symmetry_ == 4;
         if (!known || std::abs(phi.front() + kPi) > 0.01f ||
             std::abs(range * static_cast<float>(symmetry_) - kTwoPi) > 0.01f)

@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-/// Spherical coordinates to the unit square and back (section 4.2): theta by its root, for more nodes about the normal.
+/// Spherical coordinates to the unit square and back: theta by its root, for more nodes about the normal.
 float theta_to_square(float theta) { return std::sqrt(theta * (2.0f * kInvPi)); }
 float square_to_theta(float u) { return sqr(u) * kPiOver2; }
 float phi_to_square(float phi) {
