@@ -1,7 +1,7 @@
 // Ashikhmin & Shirley 2000, "An Anisotropic Phong BRDF Model": a lobe about the half vector h, with an exponent along each
 // tangent, over a diffuse base that gets what the lobe leaves. Equation numbers are the paper's; k1 = wo, k2 = wi.
 //
-// Energy: the lobe's f is F p(k2) / max(cos1, cos2), p being its own density (eq. 4 and 8), so its albedo is at most the mean of F.
+// Energy: the lobe's f is F p(k2) / max(cos1, cos2), p being its own density (eq. 4), so its albedo is at most the mean of F.
 // The base reflects R_d (1 - R_s) (1 - (1 - cos/2)^5) of the light from wo. Together they stay below 1 (measured in the tests).
 #include "make_bsdf.h"
 #include "sampling/warp.h"
@@ -99,7 +99,7 @@ float pdf(AshikhminShirleyBsdf const& b, Vec3 wo, Vec3 wi, HemisphereSampling ho
     float const chance = base_chance(b, p->cos1);
     float const base =
         how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(p->cos2) : kUniformHemispherePdf;
-    float const lobe = half_vector_pdf(b, p->h) / (4.0f * p->k_dot_h);  // eq. 8
+    float const lobe = half_vector_pdf(b, p->h) / (4.0f * p->k_dot_h);  // of wi: by the mirror
     return chance * base + (1.0f - chance) * lobe;
 }
 

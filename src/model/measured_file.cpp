@@ -72,15 +72,14 @@ MeasuredTables::MeasuredTables(std::filesystem::path const& path) {
 void MeasuredTables::read_angles(TensorFile const& file) {
     std::vector<float> const theta = ascending(file, "theta_i");
     std::vector<float> const phi = ascending(file, "phi_i");
-    // A degree's thousandth of room for rounding.
-    float const room = 1e-5f;
-    if (theta.front() < -room || theta.back() > kPiOver2 + room)
+    // Room for rounding at the horizon.
+    if (theta.front() < 0.0f || theta.back() > kPiOver2 + 1e-5f)
         file.fail("the field \"theta_i\" must be angles from 0 to pi/2, in radians; get a complete copy");
     isotropic_ = phi.size() <= 2;
     if (!isotropic_) {
         float const range = phi.back() - phi.front();
         symmetry_ = static_cast<int>(std::lround(clamp(kTwoPi / range, 0.0f, 100.0f)));
-        // Half of the circle stands for a material that looks alike after half a turn, a quarter for a mirrored one (eq. 20).
+        // Half of the circle stands for a material that looks alike after half a turn, a quarter for a mirrored one.
         bool const known = symmetry_ == 1 || symmetry_ == 2 || symmetry_ == 4;
         if (!known || std::abs(phi.front() + kPi) > 0.01f ||
             std::abs(range * static_cast<float>(symmetry_) - kTwoPi) > 0.01f)

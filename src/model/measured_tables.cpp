@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-/// Spherical coordinates to the unit square and back (section 4.2): theta by its root, for more nodes about the normal.
+/// Spherical coordinates to the unit square and back: theta by its root, for more nodes about the normal.
 float theta_to_square(float theta) { return std::sqrt(theta * (2.0f * kInvPi)); }
 float square_to_theta(float u) { return sqr(u) * kPiOver2; }
 float phi_to_square(float phi) {
@@ -43,7 +43,7 @@ Spectrum uplifted(Spectrum rgb, Wavelengths const& lambda) {
 
 SquareCell square_cell(Vec2 p, std::size_t width, std::size_t height) {
     auto const place = [](float x, std::size_t n, std::size_t& first) {
-        float const at = clamp(x, 0.0f, 1.0f) * static_cast<float>(n - 1);
+        float const at = min(max(x, 0.0f), 1.0f) * static_cast<float>(n - 1);
         first = std::min(static_cast<std::size_t>(at), n > 1 ? n - 2 : 0);
         return min(at - static_cast<float>(first), 1.0f);
     };
@@ -196,26 +196,25 @@ void MeasuredTables::sum_up() {
                     rgb += weight * rgb_[node];
                 }
             }
+        // Brought into [0, 1], whatever the file says: beyond the floats there would be no mixing.
         for (std::size_t c = 0; c < channels_; ++c)
-            albedo_[slice * channels_ + c] = static_cast<float>(sum[c]);
-        albedo_rgb_[slice] = rgb;
+            albedo_[slice * channels_ + c] = static_cast<float>(std::clamp(sum[c], 0.0, 1.0));
+        for (int i = 0; i < 3; ++i) albedo_rgb_[slice].set(i, max(min(rgb[i], 1.0f), 0.0f));
     }
 }
 
 Spectrum MeasuredTables::albedo(Vec3 wo, Wavelengths const& lambda) const {
     SliceMix const mix = incident(wo).mix;
     if (!lambda.is_rgb() && !wavelengths_.empty())
-        return clamp(lanes(
-                         [&](auto const& add) {
-                             for (std::size_t s = 0; s < static_cast<std::size_t>(mix.count); ++s)
-                                 add(&albedo_[mix.slice[s] * channels_], mix.weight[s]);
-                         },
-                         lambda),
-                     0.0f, 1.0f);
+        return lanes(
+            [&](auto const& add) {
+                for (std::size_t s = 0; s < static_cast<std::size_t>(mix.count); ++s)
+                    add(&albedo_[mix.slice[s] * channels_], mix.weight[s]);
+            },
+            lambda);
     Spectrum rgb;
     for (std::size_t s = 0; s < static_cast<std::size_t>(mix.count); ++s)
         rgb += mix.weight[s] * albedo_rgb_[mix.slice[s]];
-    rgb = clamp(rgb, 0.0f, 1.0f);
     return lambda.is_rgb() ? rgb : uplifted(rgb, lambda);
 }
 

@@ -6,7 +6,7 @@
 //   wm = half vector of wo and wi
 //   u_m = (sqrt(2 theta_m / pi), phi_m / 2 pi + 1/2), azimuths relative to phi_i where the material is isotropic
 //   s   = the point of the unit square that the warp `vndf`, given wo, takes to u_m
-//   f(wo, wi) |cos wi| = spectra(s; wo, lambda) D(u_m) / (4 sigma(u_o))       (eq. 17; without D / 4 sigma where not `jacobian`)
+//   f(wo, wi) |cos wi| = spectra(s; wo, lambda) D(u_m) / (4 sigma(u_o))   (without D / 4 sigma where not `jacobian`)
 // `luminance` is the density, over the squares of s, by which s is drawn; D and sigma are the normals' density and projected area.
 // wo is whichever direction a sample starts from: measured numbers are only nearly reciprocal (see bsdf_measured.cpp).
 #pragma once

@@ -14,7 +14,7 @@ struct Place {
     float t;
 };
 Place place(float x, std::size_t n) {
-    float const at = clamp(x, 0.0f, 1.0f) * static_cast<float>(n - 1);
+    float const at = min(max(x, 0.0f), 1.0f) * static_cast<float>(n - 1);  // 0 where x is no number
     std::size_t const cell = std::min(static_cast<std::size_t>(at), n - 2);
     return {cell, min(at - static_cast<float>(cell), 1.0f)};
 }

@@ -276,6 +276,7 @@ TEST_CASE("measured: wrong files are refused with what is wrong") {
     refused([&](TensorMaker& t) { floats(t, "theta_i", {0, 1, 0.5f}); }, "each larger");
     refused([&](TensorMaker& t) { floats(t, "theta_i", {0, 0.5f, 0.5f}); }, "each larger");
     refused([&](TensorMaker& t) { floats(t, "theta_i", {0, 30, 60}); }, "in radians");
+    refused([&](TensorMaker& t) { floats(t, "theta_i", {-0.1f, 0.5f, 1}); }, "in radians");
     refused([&](TensorMaker& t) { floats(t, "theta_i", {}); }, "each larger");
     refused([&](TensorMaker& t) { floats(t, "phi_i", {0, 1, 2}); }, "phi_i");
     refused([&](TensorMaker& t) { floats(t, "wavelengths", {500, 400, 600, 700}); }, "each larger");

@@ -1,4 +1,4 @@
-// Makes files of measured materials by the recipe of Dupuy & Jakob 2018 (section 4), the gonio-photometer being a formula: a
+// Makes files of measured materials by the recipe of Dupuy & Jakob 2018, the gonio-photometer being a formula: a
 // Trowbridge-Reitz metal whose reflectance grows with the wavelength. What is read back can be held against the formula.
 #pragma once
 

@@ -1,6 +1,6 @@
 // Densities over the unit square that are bilinear between the nodes of a grid, one for each pair of two parameters' nodes and
 // linear between those too: the warp of Dupuy & Jakob 2018, "An Adaptive Parameterization for Efficient Material Acquisition and
-// Rendering" (supplemental, 2). The square's y is drawn by the marginal density, then x by the conditional one at that y. Both are
+// Rendering". The square's y is drawn by the marginal density, then x by the conditional one at that y. Both are
 // mixtures of the slices' own, so every number that is looked up is a weighted sum of at most four.
 #pragma once
 
