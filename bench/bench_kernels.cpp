@@ -3,6 +3,7 @@
 #include "film/film.h"
 #include "model/camera.h"
 #include "model/filter.h"
+#include "model/fresnel.h"
 #include "model/material.h"
 #include "read/read.h"
 #include "sampling/distribution.h"
