@@ -3,6 +3,7 @@
 #include "film/film.h"
 #include "model/camera.h"
 #include "model/filter.h"
+#include "model/fresnel.h"
 #include "model/material.h"
 #include "read/read.h"
 #include "sampling/distribution.h"
@@ -172,21 +173,49 @@ void scattering() {
         return fresnel_conductor(w.z, Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f));
     });
 
+    // Every model once, and microfacets in each of their kinds.
     struct Named {
         char const* name;
         Bsdf bsdf;
     };
-    for (auto const& [name, bsdf] : {Named{"diffuse", DiffuseBsdf{Spectrum(0.5f)}},
-                                     {"dielectric", DielectricBsdf{Spectrum(1.5f), false}},
-                                     {"thindielectric", ThinDielectricBsdf{Spectrum(1.5f)}},
-                                     {"conductor", ConductorBsdf{Spectrum(0.2f), Spectrum(3.9f)}}}) {
-        add(std::string("bsdf/sample/") + name, squares(), [b = bsdf](Vec2 u) {
-            return sample(b, Vec3{0.6f, 0, 0.8f}, u.x, u, Mode::Radiance, HemisphereSampling::Cosine);
+    auto const facets = [](Distribution kind, bool multiscatter) {
+        return Microfacets{0.3f, 0.3f, kind, multiscatter};
+    };
+    auto const metal = [&](Distribution kind, bool multiscatter) {
+        return RoughConductorBsdf{Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f),
+                                  facets(kind, multiscatter)};
+    };
+    auto const glass = [&](Distribution kind, bool multiscatter) {
+        return RoughDielectricBsdf{1.5f, false, facets(kind, multiscatter)};
+    };
+    using enum Distribution;
+    std::vector<Named> const models{{"diffuse", DiffuseBsdf{Spectrum(0.5f)}},
+                                    {"dielectric", DielectricBsdf{Spectrum(1.5f), false}},
+                                    {"thindielectric", ThinDielectricBsdf{Spectrum(1.5f)}},
+                                    {"conductor", ConductorBsdf{Spectrum(0.2f), Spectrum(3.9f)}},
+                                    {"rough_conductor", metal(TrowbridgeReitz, false)},
+                                    {"rough_conductor/beckmann", metal(Beckmann, false)},
+                                    {"rough_conductor/blinn", metal(Blinn, false)},
+                                    {"rough_conductor/multiscatter", metal(TrowbridgeReitz, true)},
+                                    {"rough_dielectric", glass(TrowbridgeReitz, false)},
+                                    {"rough_dielectric/beckmann", glass(Beckmann, false)},
+                                    {"rough_dielectric/blinn", glass(Blinn, false)},
+                                    {"rough_dielectric/multiscatter", glass(TrowbridgeReitz, true)},
+                                    {"diffusetransmission", DiffuseTransmissionBsdf{}},
+                                    {"coateddiffuse", CoatedDiffuseBsdf{}},
+                                    {"coatedconductor", CoatedConductorBsdf{}},
+                                    {"plastic", PlasticBsdf{}},
+                                    {"ashikhminshirley", AshikhminShirleyBsdf{}},
+                                    {"metallic_roughness", MetallicRoughnessBsdf{}}};
+    for (auto const& [name, bsdf] : models) {
+        Vec3 const wo{0.6f, 0, 0.8f};
+        add(std::string("bsdf/sample/") + name, squares(), [b = bsdf, wo](Vec2 u) {
+            return sample(b, wo, u.x, u, Mode::Radiance, HemisphereSampling::Cosine);
         });
-        add(std::string("bsdf/evaluate_and_pdf/") + name, upper_directions(), [b = bsdf](Vec3 wi) {
-            Vec3 const wo{0.6f, 0, 0.8f};
-            return evaluate(b, wo, wi, Mode::Radiance) * pdf(b, wo, wi, HemisphereSampling::Cosine);
-        });
+        add(std::string("bsdf/evaluate/") + name, upper_directions(),
+            [b = bsdf, wo](Vec3 wi) { return evaluate(b, wo, wi, Mode::Radiance); });
+        add(std::string("bsdf/pdf/") + name, upper_directions(),
+            [b = bsdf, wo](Vec3 wi) { return pdf(b, wo, wi, HemisphereSampling::Cosine); });
     }
     add("frame/from_z", directions(), [](Vec3 n) { return frame_from_z(n); });
 }

@@ -1,27 +1,16 @@
 // Distributions of microfacet normals: normalisation, shadowing, known values, and normals drawn by their densities.
 #include "model/microfacet.h"
 
-#include "bsdf_checks.h"
+#include "microfacet_support.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
 
-struct Named {
-    std::string name;
-    Distribution kind;
-};
-Named const kDistributions[] = {{"trowbridge-reitz", Distribution::TrowbridgeReitz},
-                                {"beckmann", Distribution::Beckmann},
-                                {"blinn", Distribution::Blinn}};
-
-/// Roughnesses from nearly smooth to 1, and two anisotropic ones.
 std::vector<Microfacets> all_facets(Distribution kind) {
     std::vector<Microfacets> all;
-    for (float const a : {0.001f, 0.01f, 0.05f, 0.1f, 0.3f, 0.5f, 1.0f}) all.push_back({a, a, kind});
-    all.push_back({0.02f, 0.4f, kind});
-    all.push_back({0.4f, 0.05f, kind});
+    for (Vec2 const a : kRoughness) all.push_back({a.x, a.y, kind});
     return all;
 }
 
@@ -37,11 +26,9 @@ template <class F>
 double integral(Microfacets const& m, Vec3 w, F const& f) {
     Random r(3);
     std::vector<Vec3> pilot;
-    for (int i = 0; i < 10'000; ++i) pilot.push_back(sample_microfacet(m, w, random_square(r)));
+    for (int i = 0; i < 5'000; ++i) pilot.push_back(sample_microfacet(m, w, random_square(r)));
     double sum = 0;
-    for (double const x :
-         AdaptiveCells(pilot, {{0, 0, 1}}, 150).integrate(f, m.kind == Distribution::Blinn ? 3e-8 : 2e-7))
-        sum += x;
+    for (double const x : AdaptiveCells(pilot, {{0, 0, 1}}, 100).integrate(f, 4e-7)) sum += x;
     return sum;
 }
 
@@ -59,13 +46,15 @@ TEST_CASE(
                 Vec3 const w = direction(theta, 0.7);
                 INFO("theta ", theta);
                 CHECK(integral(m, w, [&](Vec3 wm) { return microfacet_pdf(m, w, wm); }) ==
-                      doctest::Approx(1).epsilon(1e-4));
-                // Smith: the area that faces w is |cos| + hidden (Heitz 2014, eq. 23). Blinn's is Beckmann's: see below.
-                if (kind == Distribution::Blinn) continue;
+                      doctest::Approx(1).epsilon(kind == Distribution::Blinn ? 1e-3 : 1e-4));
+                // Blinn's density jumps by 2 where a normal's counterpart disappears, and the quadrature feels it.
+                // Smith: the area that faces w is |cos| + hidden (Heitz 2014, eq. 23); Blinn's within 0.002, and where it is
+                // anisotropic by the roughness along w's azimuth alone, which its shape does not justify: 0.02.
+                double const exact = kind != Distribution::Blinn ? 1e-4 : m.ax == m.ay ? 2e-3 : 0.02;
                 double const facing =
                     integral(m, w, [&](Vec3 wm) { return microfacet_d(m, wm) * std::max(0.0f, dot(w, wm)); });
                 CHECK(facing ==
-                      doctest::Approx(static_cast<double>(w.z + microfacet_hidden(m, w))).epsilon(1e-4));
+                      doctest::Approx(static_cast<double>(w.z + microfacet_hidden(m, w))).epsilon(exact));
             }
         }
 }
@@ -81,6 +70,26 @@ TEST_CASE("microfacets: normals are drawn by their density, also from grazing di
                 auto const draw = [&](Random& r) -> std::optional<Vec3> {
                     return sample_microfacet(m, w, random_square(r));
                 };
+                if (kind == Distribution::Blinn && m.ax >= 0.3f && m.ay >= 0.3f) {
+                    // A broad density with an edge, where it jumps by 2: cells of one size, many points in each.
+                    SphereCells const cells(20, 24);
+                    auto e = cells.integrate(
+                        [&](Vec3 wm) { return wm.z > 0 ? microfacet_pdf(m, w, wm) : 0.0f; }, 24);
+                    std::vector<double> o(cells.size());
+                    Random r(++k);
+                    bool possible = true;
+                    for (int i = 0; i < n; ++i) {
+                        Vec3 const wm = *draw(r);
+                        possible &= microfacet_pdf(m, w, wm) > 0;
+                        ++o[cells.cell(wm)];
+                    }
+                    CHECK(possible);
+                    for (double& x : e) x = (x + 1e-6) * n;  // slivers that the points miss
+                    auto const chi = chi_square(o, e);
+                    INFO(chi);
+                    CHECK(chi.p >= sidak(3 * 9 * 14));
+                    continue;
+                }
                 auto const d = chi_square_of(
                     draw, [&](Vec3 wm) { return static_cast<double>(microfacet_pdf(m, w, wm)); }, {{0, 0, 1}},
                     n, 100, ++k);
@@ -136,6 +145,8 @@ TEST_CASE("microfacets: known values") {
     // Lambda(45 degrees, alpha = 1): (sqrt 2 - 1) / 2; (exp(-1) / sqrt pi - erfc 1) / 2.
     CHECK(microfacet_lambda(of(TrowbridgeReitz, 1, 1), slant) == doctest::Approx(0.2071067812).epsilon(1e-6));
     CHECK(microfacet_lambda(of(Beckmann, 1, 1), slant) == doctest::Approx(0.0251275483).epsilon(1e-5));
+    // Blinn's at n = 0, normals uniform over the hemisphere: (1 - cos) / (2 cos).
+    CHECK(microfacet_lambda(of(Blinn, 1, 1), slant) == doctest::Approx(0.2071067812).epsilon(0.01));
     // G of two such directions, height-correlated.
     CHECK(microfacet_g(of(TrowbridgeReitz, 1, 1), slant, slant) ==
           doctest::Approx(1 / std::sqrt(2.0)).epsilon(1e-6));
