@@ -1,12 +1,12 @@
 // Real scenes, held against pictures that pbrt-v4 made of them with thousands of samples (CPU, path integrator).
 //
-// The pictures are no part of the project: NEPHROID_SHARED, or ../shared beside the sources, says where they are. A scene
-// is asserted as soon as all that it shows is rendered here; the others are rendered with few samples and their distance
-// is printed, with what is still missing. NEPHROID_FULL takes eight times the samples and halves the tolerances.
+// A scene is asserted as soon as all that it shows is rendered here; the others are rendered with few samples and their
+// distance is printed, with what is still missing. NEPHROID_FULL takes eight times the samples and halves the tolerances.
 #include "film/develop.h"
 #include "image/compare.h"
 #include "image/read.h"
 #include "read/read.h"
+#include "reference_pictures.h"
 #include "render/render.h"
 
 #include <doctest/doctest.h>
@@ -18,6 +18,7 @@
 #include <string>
 
 using namespace nephroid;
+using test::data_folder, test::rgb_of;
 
 namespace {
 
@@ -40,13 +41,6 @@ constexpr Reference kReferences[] = {
     {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 64, nullptr},
     {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 64, nullptr},
 };
-
-std::filesystem::path data_folder() {
-    char const* const named = std::getenv("NEPHROID_SHARED");
-    auto const shared = named ? std::filesystem::path(named)
-                              : std::filesystem::path(NEPHROID_SOURCE_DIR).parent_path() / "shared";
-    return shared / "data";
-}
 
 bool is_full() { return std::getenv("NEPHROID_FULL") != nullptr; }
 
@@ -72,18 +66,6 @@ bool is_finite(Image const& image) {
     for (float const x : image.floats())
         if (!std::isfinite(x)) return false;
     return true;
-}
-
-/// R, G and B alone, whatever else a reference holds.
-Image rgb_of(Image const& image) {
-    Image out(PixelFormat::Float, image.width(), image.height(), {"R", "G", "B"});
-    char const* const names[3] = {"R", "G", "B"};
-    for (int c = 0; c < 3; ++c) {
-        int const from = image.channel(names[c]).value();
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) out.set(x, y, c, image.get(x, y, from));
-    }
-    return out;
 }
 
 }  // namespace
