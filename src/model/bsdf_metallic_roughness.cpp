@@ -1,16 +1,512 @@
-// To be replaced by the model.
-#include "make_bsdf.h"
+// glTF's layered surface: evaluation and sampling; what it is said to be stands in the header.
+//
+// Everything is seen in the facets' frame with wo above: directions are turned, and mirrored at the surface where wo is below. The
+// facets' lobe draws a normal wm first and then reflects or transmits by the Fresnel reflectance there, as PBRT 4th ed., 9.7.
+#include "model/bsdf_metallic_roughness.h"
+
+#include "model/fresnel.h"
+#include "model/schlick.h"
+#include "model/sheen.h"
+#include "sampling/warp.h"
+
+#include <array>
 
 namespace nephroid {
 
-Spectrum evaluate(MetallicRoughnessBsdf const&, Vec3, Vec3, Mode) { return {}; }
-float pdf(MetallicRoughnessBsdf const&, Vec3, Vec3, HemisphereSampling) { return 0; }
-std::optional<BsdfSample> sample(MetallicRoughnessBsdf const&, Vec3, float, Vec2, Mode, HemisphereSampling) {
-    return {};
+namespace {
+
+using B = MetallicRoughnessBsdf;
+
+constexpr float kCoatF0 = 0.04f;
+
+Vec3 mirrored(Vec3 w) { return {-w.x, -w.y, w.z}; }
+Vec3 flipped(Vec3 w) { return {w.x, w.y, -w.z}; }
+Spectrum at_least(Spectrum s, float floor) {
+    for (int i = 0; i < 4; ++i) s.set(i, max(s[i], floor));
+    return s;
 }
-Spectrum albedo(MetallicRoughnessBsdf const&, Vec3) { return {}; }
-void make(MetallicRoughnessMaterial const&, MaterialPoint const&, Bsdf& bsdf) {
-    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{Spectrum(0.5f)});
+
+/// The model as wo sees it.
+struct View {
+    B const& b;
+    Vec3 wo;        // in the facets' frame, above
+    bool below;     // it was below
+    bool inside;    // ... and that is inside a solid
+    float eta = 1;  // n_transmitted / n_incident
+
+    View(B const& model, Vec3 w) : b(model), wo(turned(w)), below(w.z < 0.0f), inside(below && model.solid) {
+        if (below) wo = flipped(wo);
+        if (b.solid) eta = inside ? 1.0f / b.eta : b.eta;
+    }
+    [[nodiscard]] Vec3 turned(Vec3 w) const {
+        return {b.axis_x * w.x + b.axis_y * w.y, b.axis_x * w.y - b.axis_y * w.x, w.z};
+    }
+    [[nodiscard]] Vec3 to_local(Vec3 w) const {
+        Vec3 const v = turned(w);
+        return below ? flipped(v) : v;
+    }
+    [[nodiscard]] Vec3 from_local(Vec3 w) const {
+        return {b.axis_x * w.x - b.axis_y * w.y, b.axis_x * w.y + b.axis_y * w.x, below ? -w.z : w.z};
+    }
+    /// Is w on the side that coat and sheen are on? Thin walls have them on both.
+    [[nodiscard]] bool outside(Vec3 w) const { return !b.solid || (w.z > 0.0f) == !inside; }
+};
+
+// --- Fresnel --------------------------------------------------------------------------------------------------------------
+/// What one facet does with white light.
+struct Split {
+    Spectrum reflected, transmitted;
+};
+/// c = wo.wm > 0.
+Split split(View const& v, float c) {
+    B const& b = v.b;
+    float const metal_edge = schlick_weight(c);
+    Spectrum const metal = schlick(b.base_color, Spectrum(1.0f), metal_edge);
+    float edge = metal_edge;
+    bool total = false;
+    if (v.inside) {
+        float const sin2_out = (1.0f - sqr(c)) * sqr(b.eta);
+        total = sin2_out >= 1.0f;
+        edge = schlick_weight(safe_sqrt(1.0f - sin2_out));
+    }
+    Spectrum const f90(b.f90);
+    Spectrum const glass = total ? Spectrum(1.0f) : schlick(b.f0, f90, edge);
+    // From inside, what does not transmit has no boundary.
+    float const share = v.inside ? b.transmitting() : 1.0f - b.metallic;
+    Split s{glass * share + metal * b.metallic, {}};
+    if (b.transmission > 0.0f && !total) {
+        Spectrum const top = at_least(b.f0, b.f0_top);
+        s.transmitted = (Spectrum(1.0f) - schlick(top, f90, edge)) * b.base_color * b.transmitting();
+    }
+    return s;
+}
+/// How likely a facet's light is taken as reflected.
+float reflect_probability(Split const& s) {
+    float const r = s.reflected.max();
+    float const t = s.transmitted.max();
+    return r + t > 0.0f ? r / (r + t) : 1.0f;
+}
+
+// --- layers ---------------------------------------------------------------------------------------------------------------
+float coat_albedo(B const& b, float mu) {
+    return b.clearcoat > 0.0f ? b.clearcoat * schlick_albedo(mu, b.clearcoat_alpha).of(kCoatF0, 1.0f) : 0.0f;
+}
+/// What the sheen leaves to the base.
+Spectrum past_sheen(B const& b, float mu) {
+    if (!b.has_sheen()) return Spectrum(1.0f);
+    return Spectrum(1.0f) - at_least(b.sheen_color, b.sheen_top) * sheen_albedo(b.sheen_alpha, mu);
+}
+/// What the layers leave of light between wo and wi: first of the coat, then of both.
+struct Passed {
+    float coat = 1;
+    Spectrum both{1.0f};
+};
+Passed passed(View const& v, Vec3 wi) {
+    Passed p;
+    Vec3 const w[2] = {v.wo, wi};
+    Spectrum sheen(1.0f);
+    for (Vec3 const x : w) {
+        if (!v.outside(x)) continue;
+        p.coat = min(p.coat, 1.0f - coat_albedo(v.b, abs_cos_theta(x)));
+        Spectrum const s = past_sheen(v.b, abs_cos_theta(x));
+        for (int i = 0; i < 4; ++i) sheen.set(i, min(sheen[i], s[i]));
+    }
+    p.both = sheen * p.coat;
+    return p;
+}
+
+// --- the base -------------------------------------------------------------------------------------------------------------
+/// Albedos of the facets from one direction; what one reflection loses is 1 - single.one.
+struct BaseAlbedo {
+    SchlickAlbedo single;
+    Spectrum specular;  // of the dielectric's specular part, by its largest components
+};
+struct Base {
+    B const& b;
+    float alpha;
+    SchlickAlbedo mean;
+    Spectrum top;       // the dielectric's f0, largest components
+    Spectrum glass_ms;  // multiple reflection: of the dielectric,
+    Spectrum ms;        // ... and of all
+    Spectrum specular_mean;
+
+    explicit Base(B const& model)
+        : b(model),
+          alpha(std::sqrt(b.facets.ax * b.facets.ay)),
+          mean(schlick_average(alpha)),
+          top(at_least(b.f0, b.f0_top)) {
+        if (makes_up()) {
+            Spectrum const glass = schlick(top, Spectrum(b.f90), 1.0f / 21.0f);
+            glass_ms = multiscatter_fresnel(glass, mean.one);
+            Spectrum const f0 = b.f0 * (1.0f - b.metallic) + b.base_color * b.metallic;
+            float const f90 = b.f90 * (1.0f - b.metallic) + b.metallic;
+            ms = multiscatter_fresnel(schlick(f0, Spectrum(f90), 1.0f / 21.0f), mean.one);
+        }
+        specular_mean = mean.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - mean.one);
+    }
+    [[nodiscard]] bool makes_up() const { return b.facets.multiscatter && mean.one < 1.0f; }
+    [[nodiscard]] BaseAlbedo albedo(float mu) const {
+        SchlickAlbedo const a = schlick_albedo(mu, alpha);
+        return {a, a.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - a.one)};
+    }
+    /// (1 - R(wo)) (1 - R(wi)) / (1 - mean R), whose mean over wi is 1 - R(wo).
+    [[nodiscard]] Spectrum under_specular(BaseAlbedo const& o, BaseAlbedo const& i) const {
+        Spectrum const one(1.0f);
+        return (one - o.specular) * (one - i.specular) / at_least(one - specular_mean, 1e-6f);
+    }
+    [[nodiscard]] float lost(BaseAlbedo const& o, BaseAlbedo const& i) const {
+        return (1.0f - o.single.one) * (1.0f - i.single.one) / (1.0f - mean.one);
+    }
+};
+
+/// GGX without F: D G / (4 cos cos), wo and wi above.
+float facet_brdf(Microfacets const& m, Vec3 wo, Vec3 wi, Vec3 wm) {
+    return microfacet_d(m, wm) * microfacet_g(m, wo, wi) / (4.0f * wo.z * wi.z);
+}
+Microfacets coat_facets(B const& b) { return {b.clearcoat_alpha, b.clearcoat_alpha}; }
+
+/// Half the way between wo and wi, above; wi is refracted by eta, or, above, reflected. 0 where there is no such facet.
+struct Facet {
+    Vec3 wm{0, 0, 0};
+    float across_o = 0, across_i = 0;  // wo.wm > 0, wi.wm
+};
+Facet refracting_facet(View const& v, Vec3 wi) {
+    Vec3 wm = v.wo + wi * v.eta;
+    float const len2 = length_squared(wm);
+    if (!(len2 > 0.0f)) return {};
+    wm = wm / std::sqrt(len2);
+    if (wm.z < 0.0f) wm = -wm;
+    Facet const f{wm, dot(v.wo, wm), dot(wi, wm)};
+    return f.across_o > 0.0f && f.across_i < 0.0f ? f : Facet{};
+}
+/// dwm / dwi of refraction (PBRT 4th ed., eq. 9.36).
+float refraction_jacobian(Facet const& f, float eta) {
+    return std::abs(f.across_i) / sqr(f.across_i + f.across_o / eta);
+}
+
+Spectrum reflected(View const& v, Vec3 wi) {
+    B const& b = v.b;
+    Vec3 const wm = normalize(v.wo + wi);
+    float const c = dot(v.wo, wm);
+    Spectrum specular;
+    if (!b.facets.smooth()) specular = split(v, c).reflected * facet_brdf(b.facets, v.wo, wi, wm);
+    if (v.inside) return specular + b.base_color * (b.diffusing() * kInvPi);
+
+    Base const base(b);
+    if (b.diffusing() > 0.0f || base.makes_up()) {
+        BaseAlbedo const o = base.albedo(v.wo.z);
+        BaseAlbedo const i = base.albedo(wi.z);
+        if (b.diffusing() > 0.0f)
+            specular += b.base_color * base.under_specular(o, i) * (b.diffusing() * kInvPi);
+        if (base.makes_up()) specular += base.ms * (base.lost(o, i) * kInvPi);
+    }
+    Passed const p = passed(v, wi);
+    Spectrum f = specular * p.both;
+    if (b.has_sheen()) f += b.sheen_color * (p.coat * sheen_brdf(b.sheen_alpha, v.wo, wi));
+    if (b.has_rough_coat())
+        f += Spectrum(b.clearcoat * schlick(kCoatF0, 1.0f, schlick_weight(c)) *
+                      facet_brdf(coat_facets(b), v.wo, wi, wm));
+    return f;
+}
+
+Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
+    B const& b = v.b;
+    if (b.facets.smooth() || !(b.transmitting() > 0.0f) || b.unbent()) return {};
+    Spectrum f;
+    if (b.solid) {
+        Facet const m = refracting_facet(v, wi);
+        if (!(m.across_o > 0.0f)) return {};
+        // Walter et al. 2007, eq. 21; PBRT 4th ed., eq. 9.40.
+        float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g(b.facets, v.wo, wi) * m.across_o *
+                           refraction_jacobian(m, v.eta) / (v.wo.z * abs_cos_theta(wi));
+        f = split(v, m.across_o).transmitted * (btdf * refraction_scale(mode, v.eta));
+    } else {
+        // Two rough sides close together: as spread as reflection, on the other side.
+        Vec3 const back = flipped(wi);
+        Vec3 const wm = normalize(v.wo + back);
+        f = split(v, dot(v.wo, wm)).transmitted * facet_brdf(b.facets, v.wo, back, wm);
+        Base const base(b);
+        if (base.makes_up()) {
+            float const lost = base.lost(base.albedo(v.wo.z), base.albedo(back.z));
+            f += b.base_color * (Spectrum(1.0f) - base.glass_ms) * (b.transmitting() * lost * kInvPi);
+        }
+    }
+    return f * passed(v, wi).both;
+}
+
+// --- choosing -------------------------------------------------------------------------------------------------------------
+enum Lobe : std::uint8_t {
+    CoatLobe,
+    SheenLobe,
+    FacetLobe,    // reflected or transmitted
+    DiffuseLobe,  // and what makes up for multiple reflection
+    ThroughLobe,  // the same for thin walls
+    UnbentLobe,   // straight on, through a solid of the outside's index
+    kLobes
+};
+struct Chances {
+    std::array<float, kLobes> p{};
+};
+
+/// What goes straight on where nothing bends: both sides see the same angle, and give the same.
+Spectrum straight_share(View const& v) {
+    Base const base(v.b);
+    return (Spectrum(1.0f) - base.albedo(v.wo.z).specular) * v.b.base_color * v.b.transmitting();
+}
+
+/// Shares of light from wo by lobe, from the albedos.
+struct Shares {
+    std::array<Spectrum, kLobes> s{};
+    Spectrum sum;
+};
+Shares shares(View const& v) {
+    B const& b = v.b;
+    Shares r;
+    auto& s = r.s;
+    if (v.inside) {
+        Split const macro = split(v, v.wo.z);
+        s[FacetLobe] = macro.reflected + macro.transmitted;
+        s[DiffuseLobe] = b.base_color * b.diffusing();
+        if (b.unbent() && !b.facets.smooth()) {
+            s[FacetLobe] = macro.reflected;
+            s[UnbentLobe] = straight_share(v);
+        }
+    } else {
+        Base const base(b);
+        BaseAlbedo const o = base.albedo(v.wo.z);
+        Spectrum const past = past_sheen(b, v.wo.z);
+        float const coat = coat_albedo(b, v.wo.z);
+        Spectrum const below = past * (1.0f - coat);
+        s[CoatLobe] = Spectrum(coat);
+        if (b.has_sheen())
+            s[SheenLobe] = b.sheen_color * (sheen_albedo(b.sheen_alpha, v.wo.z) * (1.0f - coat));
+        Spectrum const f0 = b.f0 * (1.0f - b.metallic) + b.base_color * b.metallic;
+        Spectrum const f90(b.f90 * (1.0f - b.metallic) + b.metallic);
+        Spectrum const one(1.0f);
+        Spectrum const through = b.base_color * b.transmitting();
+        s[FacetLobe] = o.single.of(f0, f90);
+        Spectrum const refracted =
+            (Spectrum(o.single.one) - o.single.of(base.top, Spectrum(b.f90))) * through;
+        s[DiffuseLobe] = b.base_color * b.diffusing() * (one - o.specular);
+        if (base.makes_up()) {
+            float const lost = 1.0f - o.single.one;
+            s[DiffuseLobe] += base.ms * lost;
+            if (!b.solid) s[ThroughLobe] = (one - base.glass_ms) * through * lost;
+        }
+        if (b.unbent() && !b.facets.smooth())
+            s[UnbentLobe] = straight_share(v);
+        else
+            s[FacetLobe] += refracted;
+        for (int const k : {FacetLobe, DiffuseLobe, ThroughLobe, UnbentLobe})
+            s[static_cast<std::size_t>(k)] *= below;
+    }
+    for (Spectrum const& x : s) r.sum += x;
+    return r;
+}
+Chances chances(View const& v) {
+    Shares const r = shares(v);
+    Chances c;
+    float sum = 0;
+    for (std::size_t i = 0; i < kLobes; ++i) sum += c.p[i] = r.s[i].max();
+    if (sum > 0.0f)
+        for (float& p : c.p) p /= sum;
+    return c;
+}
+
+float hemisphere_pdf(float mu, HemisphereSampling how) {
+    return how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(mu) : kUniformHemispherePdf;
+}
+Vec3 sample_hemisphere(Vec2 u, HemisphereSampling how) {
+    return how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u)
+                                             : square_to_uniform_hemisphere(u);
+}
+
+/// The density of everything that is no delta part, wi in the facets' frame.
+float density(View const& v, Chances const& c, Vec3 wi, HemisphereSampling how) {
+    B const& b = v.b;
+    bool const rough = !b.facets.smooth();
+    if (wi.z > 0.0f) {
+        float d = c.p[DiffuseLobe] * hemisphere_pdf(wi.z, how) + c.p[SheenLobe] * kUniformHemispherePdf;
+        Vec3 const wm = normalize(v.wo + wi);
+        float const across = dot(v.wo, wm);
+        if (b.has_rough_coat() && c.p[CoatLobe] > 0.0f)
+            d += c.p[CoatLobe] * microfacet_pdf(coat_facets(b), v.wo, wm) / (4.0f * across);
+        if (rough && c.p[FacetLobe] > 0.0f) {
+            Split s = split(v, across);
+            if (b.unbent()) s.transmitted = {};
+            d += c.p[FacetLobe] * reflect_probability(s) * microfacet_pdf(b.facets, v.wo, wm) /
+                 (4.0f * across);
+        }
+        return d;
+    }
+    if (!rough || !(b.transmitting() > 0.0f) || b.unbent()) return 0.0f;
+    if (!b.solid) {
+        Vec3 const wm = normalize(v.wo + flipped(wi));
+        float const across = dot(v.wo, wm);
+        return c.p[ThroughLobe] * hemisphere_pdf(-wi.z, how) +
+               c.p[FacetLobe] * (1.0f - reflect_probability(split(v, across))) *
+                   microfacet_pdf(b.facets, v.wo, wm) / (4.0f * across);
+    }
+    Facet const m = refracting_facet(v, wi);
+    if (!(m.across_o > 0.0f)) return 0.0f;
+    return c.p[FacetLobe] * (1.0f - reflect_probability(split(v, m.across_o))) *
+           microfacet_pdf(b.facets, v.wo, m.wm) * refraction_jacobian(m, v.eta);
+}
+
+Spectrum value(View const& v, Vec3 wi, Mode mode) {
+    return wi.z > 0.0f ? reflected(v, wi) : transmitted(v, wi, mode);
+}
+
+// --- delta parts ----------------------------------------------------------------------------------------------------------
+BsdfSample delta(View const& v, Spectrum weight, Vec3 wi, float probability) {
+    BsdfSample s;
+    s.wi = v.from_local(wi);
+    s.f = weight / abs_cos_theta(wi);
+    s.pdf = probability;
+    s.delta = true;
+    s.transmitted = wi.z < 0.0f;
+    return s;
+}
+BsdfSample coat_mirror(View const& v, float probability) {
+    return delta(v, Spectrum(coat_albedo(v.b, v.wo.z)), mirrored(v.wo), probability);
+}
+BsdfSample base_mirror(View const& v, Split const& s, float probability) {
+    Vec3 const wi = mirrored(v.wo);
+    return delta(v, s.reflected * passed(v, wi).both, wi, probability);
+}
+std::optional<BsdfSample> base_window(View const& v, Split const& s, float probability, Mode mode) {
+    Vec3 wi = -v.wo;
+    float eta = v.eta;
+    if (v.b.solid && !refract(v.wo, eta, wi)) return std::nullopt;
+    if (wi.z == 0.0f) return std::nullopt;
+    BsdfSample r =
+        delta(v, s.transmitted * passed(v, wi).both * refraction_scale(mode, eta), wi, probability);
+    r.eta = eta;
+    r.keep_hero = v.b.dispersive;
+    return r;
+}
+BsdfSample straight_on(View const& v, float probability, Mode mode) {
+    Vec3 const wi = -v.wo;
+    BsdfSample r =
+        delta(v, straight_share(v) * passed(v, wi).both * refraction_scale(mode, v.eta), wi, probability);
+    r.eta = v.eta;
+    r.keep_hero = v.b.dispersive;
+    return r;
+}
+
+}  // namespace
+
+Spectrum evaluate(B const& b, Vec3 wo, Vec3 wi, Mode mode) {
+    if (wo.z == 0.0f || wi.z == 0.0f) return {};
+    View const v(b, wo);
+    return value(v, v.to_local(wi), mode);
+}
+
+float pdf(B const& b, Vec3 wo, Vec3 wi, HemisphereSampling how) {
+    if (wo.z == 0.0f || wi.z == 0.0f) return 0.0f;
+    View const v(b, wo);
+    return density(v, chances(v), v.to_local(wi), how);
+}
+
+std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mode, HemisphereSampling how) {
+    if (wo.z == 0.0f) return std::nullopt;
+    View const v(b, wo);
+    Chances const c = chances(v);
+    std::size_t lobe = 0;
+    float below = 0;
+    std::size_t last = kLobes;
+    for (std::size_t i = 0; i < kLobes; ++i) {
+        if (!(c.p[i] > 0.0f)) continue;
+        last = i;
+        if (uc < below + c.p[i]) break;
+        below += c.p[i];
+    }
+    if (last == kLobes) return std::nullopt;  // black
+    lobe = last;
+    float const p = c.p[lobe];
+    float const rest = clamp((uc - below) / p, 0.0f, kOneMinusEpsilon);
+
+    Vec3 wi{0, 0, 0};
+    float eta = 1;
+    switch (lobe) {
+        case CoatLobe: {
+            if (!b.has_rough_coat()) return coat_mirror(v, p);
+            Vec3 const wm = sample_microfacet(coat_facets(b), v.wo, u);
+            wi = wm * (2.0f * dot(v.wo, wm)) - v.wo;
+            if (!(wi.z > 0.0f)) return std::nullopt;
+            break;
+        }
+        case SheenLobe:
+            wi = square_to_uniform_hemisphere(u);
+            break;
+        case DiffuseLobe:
+            wi = sample_hemisphere(u, how);
+            break;
+        case ThroughLobe:
+            wi = flipped(sample_hemisphere(u, how));
+            break;
+        case UnbentLobe:
+            return straight_on(v, p, mode);
+        default: {
+            bool const smooth = b.facets.smooth();
+            Vec3 const wm = smooth ? Vec3{0, 0, 1} : sample_microfacet(b.facets, v.wo, u);
+            float const across = dot(v.wo, wm);
+            Split s = split(v, across);
+            if (b.unbent() && !smooth) s.transmitted = {};
+            float const q = reflect_probability(s);
+            bool const reflects = rest < q;
+            if (smooth && reflects) return base_mirror(v, s, p * q);
+            if (smooth) return base_window(v, s, p * (1.0f - q), mode);
+            if (reflects || !b.solid) {
+                wi = wm * (2.0f * across) - v.wo;
+                if (!(wi.z > 0.0f)) return std::nullopt;
+                if (!reflects) wi = flipped(wi);
+            } else {
+                // Refraction about wm: seen from it, wo is (across, the part along the facet).
+                eta = v.eta;
+                float const sin2_t = max(0.0f, 1.0f - sqr(across)) / sqr(eta);
+                if (sin2_t >= 1.0f) return std::nullopt;
+                float const cos_t = std::sqrt(1.0f - sin2_t);
+                wi = normalize(v.wo * (-1.0f / eta) + wm * (across / eta - cos_t));
+                if (!(wi.z < 0.0f)) return std::nullopt;
+            }
+        }
+    }
+    if (wi.z == 0.0f) return std::nullopt;
+    BsdfSample s;
+    s.pdf = density(v, c, wi, how);
+    if (!(s.pdf > 0.0f)) return std::nullopt;
+    s.f = value(v, wi, mode);
+    s.wi = v.from_local(wi);
+    s.transmitted = wi.z < 0.0f;
+    s.eta = eta;
+    s.keep_hero = s.transmitted && b.dispersive;
+    return s;
+}
+
+Spectrum albedo(B const& b, Vec3 wo) {
+    if (wo.z == 0.0f) return {};
+    return shares(View(b, wo)).sum;
+}
+
+DeltaBranches delta_branches(B const& b, Vec3 wo, Mode mode) {
+    if (wo.z == 0.0f) return {};
+    View const v(b, wo);
+    DeltaBranches r;
+    bool const coat = b.clearcoat > 0.0f && !b.has_rough_coat() && !v.inside;
+    if (coat) r.reflected = coat_mirror(v, 1.0f);
+    if (b.facets.smooth()) {
+        Split const s = split(v, v.wo.z);
+        BsdfSample const base = base_mirror(v, s, 1.0f);
+        if (r.reflected)
+            r.reflected->f += base.f;
+        else
+            r.reflected = base;
+        if (!s.transmitted.is_black()) r.transmitted = base_window(v, s, 1.0f, mode);
+    } else if (b.unbent() && b.transmitting() > 0.0f) {
+        r.transmitted = straight_on(v, 1.0f, mode);
+    }
+    return r;
 }
 
 }  // namespace nephroid
