@@ -254,6 +254,11 @@ Spectrum straight_share(View const& v) {
     return (Spectrum(1.0f) - base.albedo(v.wo.z).specular) * v.b.base_color * v.b.transmitting();
 }
 
+/// Coat and base are mirrors: their reflections are one.
+bool one_mirror(View const& v) {
+    return v.b.clearcoat > 0.0f && v.b.facets.smooth() && !v.b.has_rough_coat() && !v.inside;
+}
+
 /// Shares of light from wo by lobe, from the albedos.
 struct Shares {
     std::array<Spectrum, kLobes> s{};
@@ -268,7 +273,10 @@ Shares shares(View const& v) {
         s[FacetLobe] = macro.reflected + macro.transmitted;
         s[DiffuseLobe] = b.base_color * b.diffusing();
         if (b.unbent() && !b.facets.smooth()) {
-            s[FacetLobe] = macro.reflected;
+            Base const base(b);
+            SchlickAlbedo const one = base.albedo(v.wo.z).single;
+            s[FacetLobe] = one.of(b.f0, Spectrum(b.f90)) * b.transmitting() +
+                           one.of(b.base_color, Spectrum(1.0f)) * b.metallic;
             s[UnbentLobe] = straight_share(v);
         }
     } else {
@@ -299,6 +307,10 @@ Shares shares(View const& v) {
             s[FacetLobe] += refracted;
         for (int const k : {FacetLobe, DiffuseLobe, ThroughLobe, UnbentLobe})
             s[static_cast<std::size_t>(k)] *= below;
+        if (one_mirror(v)) {
+            s[FacetLobe] += s[CoatLobe];
+            s[CoatLobe] = {};
+        }
     }
     for (Spectrum const& x : s) r.sum += x;
     return r;
@@ -311,6 +323,15 @@ Chances chances(View const& v) {
     if (sum > 0.0f)
         for (float& p : c.p) p /= sum;
     return c;
+}
+
+/// How likely a smooth base's light is taken as reflected.
+float mirror_probability(View const& v, Split s) {
+    if (!one_mirror(v)) return reflect_probability(s);
+    float const coat = coat_albedo(v.b, v.wo.z);
+    s.reflected = s.reflected * (1.0f - coat) + Spectrum(coat);
+    s.transmitted *= 1.0f - coat;
+    return reflect_probability(s);
 }
 
 float hemisphere_pdf(float mu, HemisphereSampling how) {
@@ -372,7 +393,9 @@ BsdfSample coat_mirror(View const& v, float probability) {
 }
 BsdfSample base_mirror(View const& v, Split const& s, float probability) {
     Vec3 const wi = mirrored(v.wo);
-    return delta(v, s.reflected * passed(v, wi).both, wi, probability);
+    Spectrum weight = s.reflected * passed(v, wi).both;
+    if (one_mirror(v)) weight += Spectrum(coat_albedo(v.b, v.wo.z));
+    return delta(v, weight, wi, probability);
 }
 std::optional<BsdfSample> base_window(View const& v, Split const& s, float probability, Mode mode) {
     Vec3 wi = -v.wo;
@@ -453,7 +476,7 @@ std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mod
             float const across = dot(v.wo, wm);
             Split s = split(v, across);
             if (b.unbent() && !smooth) s.transmitted = {};
-            float const q = reflect_probability(s);
+            float const q = smooth ? mirror_probability(v, s) : reflect_probability(s);
             bool const reflects = rest < q;
             if (smooth && reflects) return base_mirror(v, s, p * q);
             if (smooth) return base_window(v, s, p * (1.0f - q), mode);
@@ -493,15 +516,11 @@ DeltaBranches delta_branches(B const& b, Vec3 wo, Mode mode) {
     if (wo.z == 0.0f) return {};
     View const v(b, wo);
     DeltaBranches r;
-    bool const coat = b.clearcoat > 0.0f && !b.has_rough_coat() && !v.inside;
-    if (coat) r.reflected = coat_mirror(v, 1.0f);
+    if (!b.facets.smooth() && b.clearcoat > 0.0f && !b.has_rough_coat() && !v.inside)
+        r.reflected = coat_mirror(v, 1.0f);
     if (b.facets.smooth()) {
         Split const s = split(v, v.wo.z);
-        BsdfSample const base = base_mirror(v, s, 1.0f);
-        if (r.reflected)
-            r.reflected->f += base.f;
-        else
-            r.reflected = base;
+        r.reflected = base_mirror(v, s, 1.0f);
         if (!s.transmitted.is_black()) r.transmitted = base_window(v, s, 1.0f, mode);
     } else if (b.unbent() && b.transmitting() > 0.0f) {
         r.transmitted = straight_on(v, 1.0f, mode);

@@ -17,7 +17,7 @@ inline float schlick(float f0, float f90, float weight) { return f0 + (f90 - f0)
 
 /// Albedo of isotropic GGX microfacets with one reflection, where F is 1 (`one`) and where F is (1 - c)^5 (`edge`).
 struct SchlickAlbedo {
-    float one = 1, edge = 0;
+    float one = 0, edge = 0;
     /// Of any f0 and f90 (float or Spectrum).
     template <class S>
     [[nodiscard]] S of(S f0, S f90) const {
