@@ -123,18 +123,13 @@ struct BaseAlbedo {
 };
 struct Base {
     B const& b;
-    float alpha;
     SchlickAlbedo mean;
     Spectrum top;       // the dielectric's f0, largest components
     Spectrum glass_ms;  // multiple reflection: of the dielectric,
     Spectrum ms;        // ... and of all
     Spectrum specular_mean;
 
-    explicit Base(B const& model)
-        : b(model),
-          alpha(std::sqrt(b.facets.ax * b.facets.ay)),
-          mean(schlick_average(alpha)),
-          top(at_least(b.f0, b.f0_top)) {
+    explicit Base(B const& model) : b(model), mean(schlick_mean(b.facets)), top(at_least(b.f0, b.f0_top)) {
         if (makes_up()) {
             Spectrum const glass = schlick(top, Spectrum(b.f90), 1.0f / 21.0f);
             glass_ms = multiscatter_fresnel(glass, mean.one);
@@ -145,8 +140,8 @@ struct Base {
         specular_mean = mean.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - mean.one);
     }
     [[nodiscard]] bool makes_up() const { return b.facets.multiscatter && mean.one < 1.0f; }
-    [[nodiscard]] BaseAlbedo albedo(float mu) const {
-        SchlickAlbedo const a = schlick_albedo(mu, alpha);
+    [[nodiscard]] BaseAlbedo albedo(Vec3 w) const {
+        SchlickAlbedo const a = schlick_albedo(b.facets, w);
         return {a, a.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - a.one)};
     }
     /// (1 - R(wo)) (1 - R(wi)) / (1 - mean R), whose mean over wi is 1 - R(wo).
@@ -194,8 +189,8 @@ Spectrum reflected(View const& v, Vec3 wi) {
 
     Base const base(b);
     if (b.diffusing() > 0.0f || base.makes_up()) {
-        BaseAlbedo const o = base.albedo(v.wo.z);
-        BaseAlbedo const i = base.albedo(wi.z);
+        BaseAlbedo const o = base.albedo(v.wo);
+        BaseAlbedo const i = base.albedo(wi);
         if (b.diffusing() > 0.0f)
             specular += b.base_color * base.under_specular(o, i) * (b.diffusing() * kInvPi);
         if (base.makes_up()) specular += base.ms * (base.lost(o, i) * kInvPi);
@@ -227,7 +222,7 @@ Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
         f = split(v, dot(v.wo, wm)).transmitted * facet_brdf(b.facets, v.wo, back, wm);
         Base const base(b);
         if (base.makes_up()) {
-            float const lost = base.lost(base.albedo(v.wo.z), base.albedo(back.z));
+            float const lost = base.lost(base.albedo(v.wo), base.albedo(back));
             f += b.base_color * (Spectrum(1.0f) - base.glass_ms) * (b.transmitting() * lost * kInvPi);
         }
     }
@@ -251,7 +246,7 @@ struct Chances {
 /// What goes straight on where nothing bends: both sides see the same angle, and give the same.
 Spectrum straight_share(View const& v) {
     Base const base(v.b);
-    return (Spectrum(1.0f) - base.albedo(v.wo.z).specular) * v.b.base_color * v.b.transmitting();
+    return (Spectrum(1.0f) - base.albedo(v.wo).specular) * v.b.base_color * v.b.transmitting();
 }
 
 /// Coat and base are mirrors: their reflections are one.
@@ -274,14 +269,14 @@ Shares shares(View const& v) {
         s[DiffuseLobe] = b.base_color * b.diffusing();
         if (b.unbent() && !b.facets.smooth()) {
             Base const base(b);
-            SchlickAlbedo const one = base.albedo(v.wo.z).single;
+            SchlickAlbedo const one = base.albedo(v.wo).single;
             s[FacetLobe] = one.of(b.f0, Spectrum(b.f90)) * b.transmitting() +
                            one.of(b.base_color, Spectrum(1.0f)) * b.metallic;
             s[UnbentLobe] = straight_share(v);
         }
     } else {
         Base const base(b);
-        BaseAlbedo const o = base.albedo(v.wo.z);
+        BaseAlbedo const o = base.albedo(v.wo);
         Spectrum const past = past_sheen(b, v.wo.z);
         float const coat = coat_albedo(b, v.wo.z);
         Spectrum const below = past * (1.0f - coat);

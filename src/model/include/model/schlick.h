@@ -2,7 +2,7 @@
 // f90, and so are the albedos: two numbers per direction serve all colours ("split sum", Karis 2013).
 #pragma once
 
-#include "math/vec.h"
+#include "model/microfacet.h"
 #include "spectrum/spectrum.h"
 
 namespace nephroid {
@@ -15,22 +15,22 @@ inline float schlick_weight(float c) {
 inline Spectrum schlick(Spectrum f0, Spectrum f90, float weight) { return f0 + (f90 - f0) * weight; }
 inline float schlick(float f0, float f90, float weight) { return f0 + (f90 - f0) * weight; }
 
-/// Albedo of isotropic GGX microfacets with one reflection, where F is 1 (`one`) and where F is (1 - c)^5 (`edge`).
+/// Albedo of GGX microfacets with one reflection, where F is 1 (`one`) and where F is (1 - c)^5 (`edge`).
 struct SchlickAlbedo {
-    float one = 0, edge = 0;
+    float one = 1, edge = 0;
     /// Of any f0 and f90 (float or Spectrum).
     template <class S>
     [[nodiscard]] S of(S f0, S f90) const {
         return f0 * (one - edge) + f90 * edge;
     }
 };
-inline SchlickAlbedo operator+(SchlickAlbedo a, SchlickAlbedo b) { return {a.one + b.one, a.edge + b.edge}; }
-inline SchlickAlbedo operator*(SchlickAlbedo a, float s) { return {a.one * s, a.edge * s}; }
 
-/// From a direction of cosine mu > 0: within 0.004 (alpha >= 0.01; tests); exact where alpha < 1e-3, a mirror.
+/// Of isotropic facets, from a direction of cosine mu > 0: within 0.003 (mu >= 0.03; tests). A mirror where alpha < 1e-3.
 SchlickAlbedo schlick_albedo(float mu, float alpha);
+/// Of facets from w above, ax >= ay. `one` is the anisotropic albedo (within 0.01; tests), `edge` that of sqrt(ax ay).
+SchlickAlbedo schlick_albedo(Microfacets const& m, Vec3 w);
 /// Cosine-weighted mean of it over the hemisphere.
-SchlickAlbedo schlick_average(float alpha);
+SchlickAlbedo schlick_mean(Microfacets const& m);
 
 /// What light that was reflected more than once between the facets has left, of the part that one reflection loses (Kulla & Conty
 /// 2017, slide 20; Fdez-Aguera 2019 has the same series): F^2 E / (1 - F (1 - E)), F and E means over the hemisphere.

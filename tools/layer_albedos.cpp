@@ -1,0 +1,169 @@
+// Tabulates the directional albedos of microfacets and of sheen (src/model/layer_albedos.h), by quadrature in double.
+//
+//   layer_albedos OUT.bin
+#include "../src/model/layer_albedos.h"
+
+#include "../src/model/sheen_fit.h"
+#include "model/sheen.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace {
+
+using namespace nephroid;
+using T = LayerAlbedos;
+
+constexpr double kPiD = 3.14159265358979323846;
+constexpr double kGrazing = 1e-4;  // the cosine that stands for 0
+
+double part(int i, int cells) { return static_cast<double>(i) / cells; }
+double cosine(int i, int cells) { return std::max(kGrazing, part(i, cells) * part(i, cells)); }
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// --- microfacets --------------------------------------------------------------------------------------------------------------
+struct Direction {
+    double x, y, z;
+};
+double dot(Direction a, Direction b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// GGX (PBRT 4th ed., 9.6), in double.
+struct Ggx {
+    double ax, ay;
+    [[nodiscard]] double lambda(Direction w) const {
+        double const t = (ax * ax * w.x * w.x + ay * ay * w.y * w.y) / (w.z * w.z);
+        return (std::sqrt(1 + t) - 1) / 2;
+    }
+    /// Visible normals by spherical caps (Dupuy & Benyoub 2023).
+    [[nodiscard]] Direction normal(Direction w, double u, double v) const {
+        double const length = std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z);
+        Direction const s{ax * w.x / length, ay * w.y / length, w.z / length};
+        double const z = (1 - v) * (1 + s.z) - s.z;
+        double const r = std::sqrt(std::max(0.0, 1 - z * z));
+        Direction const h{ax * (r * std::cos(2 * kPiD * u) + s.x), ay * (r * std::sin(2 * kPiD * u) + s.y),
+                          z + s.z};
+        double const l = std::sqrt(dot(h, h));
+        return {h.x / l, h.y / l, h.z / l};
+    }
+};
+struct Pair {
+    double one = 0, edge = 0;
+};
+/// Mean of G / G1 over the visible normals, and of the same times (1 - c)^5.
+Pair facets(Ggx const& m, Direction w, int azimuths, int heights) {
+    if (std::max(m.ax, m.ay) < 1e-3) return {1, std::pow(1 - w.z, 5)};
+    Pair sum;
+    double const lo = m.lambda(w);
+    for (int i = 0; i < azimuths; ++i)
+        for (int k = 0; k < heights; ++k) {
+            Direction const n = m.normal(w, (i + 0.5) / azimuths, (k + 0.5) / heights);
+            double const c = dot(w, n);
+            Direction const wi{2 * c * n.x - w.x, 2 * c * n.y - w.y, 2 * c * n.z - w.z};
+            if (!(wi.z > 0)) continue;
+            double const weight = (1 + lo) / (1 + lo + m.lambda(wi));
+            sum.one += weight;
+            sum.edge += weight * std::pow(1 - std::min(c, 1.0), 5);
+        }
+    return {sum.one / (azimuths * heights), sum.edge / (azimuths * heights)};
+}
+Direction direction(double mu, double phi) {
+    double const s = std::sqrt(1 - mu * mu);
+    return {s * std::cos(phi), s * std::sin(phi), mu};
+}
+
+/// 2 int T mu dmu = 4 int T x^3 dx with mu = x^2, of what is linear in x between nodes.
+template <std::size_t N>
+double mean(std::array<float, N> const& row) {
+    int const cells = static_cast<int>(N) - 1;
+    double sum = 0;
+    for (int i = 0; i < cells; ++i) {
+        double const x = part(i, cells), y = part(i + 1, cells);
+        double const whole = std::pow(y, 4) - std::pow(x, 4);          // int 4 x^3
+        double const first = 0.8 * (std::pow(y, 5) - std::pow(x, 5));  // int 4 x^4
+        double const upper = (first - x * whole) * cells;
+        sum +=
+            static_cast<double>(row[at(i)]) * (whole - upper) + static_cast<double>(row[at(i + 1)]) * upper;
+    }
+    return sum;
+}
+
+void isotropic(T& t) {
+    for (int r = 0; r <= T::kRough; ++r) {
+        double const alpha = part(r, T::kRough) * part(r, T::kRough);
+        for (int i = 0; i <= T::kAngles; ++i) {
+            Pair const p = facets({alpha, alpha}, direction(cosine(i, T::kAngles), 0), 32, 64);
+            t.one[at(r)][at(i)] = static_cast<float>(p.one);
+            t.edge[at(r)][at(i)] = static_cast<float>(p.edge);
+        }
+        t.one_mean[at(r)] = static_cast<float>(mean(t.one[at(r)]));
+        t.edge_mean[at(r)] = static_cast<float>(mean(t.edge[at(r)]));
+    }
+}
+
+void anisotropic(T& t) {
+    for (int r = 0; r <= T::kMajor; ++r)
+        for (int q = 0; q <= T::kRatio; ++q) {
+            double const ax = part(r, T::kMajor) * part(r, T::kMajor);
+            double const ay = std::max(1e-5, ax * part(q, T::kRatio) * part(q, T::kRatio));
+            double sum = 0;
+            for (int k = 0; k <= T::kTurns; ++k) {
+                auto& row = t.anisotropic[at(r)][at(q)][at(k)];
+                for (int i = 0; i <= T::kFewAngles; ++i) {
+                    Direction const w = direction(cosine(i, T::kFewAngles), part(k, T::kTurns) * kPiD / 2);
+                    row[at(i)] = static_cast<float>(facets({ax, ay}, w, 24, 24).one);
+                }
+                sum += mean(row) * (k == 0 || k == T::kTurns ? 0.5 : 1.0);
+            }
+            t.anisotropic_mean[at(r)][at(q)] = static_cast<float>(sum / T::kTurns);
+        }
+}
+
+// --- sheen ------------------------------------------------------------------------------------------------------------------
+/// Midpoint rule, with cosines spaced as squares because all happens at the horizon.
+double sheen_albedo_of(double mu, double alpha) {
+    constexpr int kHeights = 64, kAzimuths = 64;
+    double const lo = sheen_lambda(mu, alpha);
+    double const so = std::sqrt(1 - mu * mu);
+    double sum = 0;
+    for (int i = 0; i < kHeights; ++i) {
+        double const x = (i + 0.5) / kHeights;
+        double const z = x * x;
+        double const si = std::sqrt(1 - z * z);
+        double d = 0;
+        for (int k = 0; k < kAzimuths; ++k) {
+            double const across2 = so * so + si * si + 2 * so * si * std::cos(kPiD * (k + 0.5) / kAzimuths);
+            d += sheen_density(across2 / (across2 + (mu + z) * (mu + z)), alpha);
+        }
+        // f cos = D G / (4 mu), dz = 2 x dx
+        sum += d / kAzimuths * 2 * x / (4 * mu * (1 + lo + sheen_lambda(z, alpha)));
+    }
+    return 2 * kPiD * sum / kHeights;
+}
+void sheen(T& t) {
+    double const least = std::sqrt(static_cast<double>(kSheenAlphaMin));
+    for (int r = 0; r <= T::kRough; ++r) {
+        double const roughness = least + (1 - least) * part(r, T::kRough);
+        for (int i = 0; i <= T::kAngles; ++i)
+            t.sheen[at(r)][at(i)] =
+                static_cast<float>(sheen_albedo_of(cosine(i, T::kAngles), roughness * roughness));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: layer_albedos OUT.bin\n");
+        return 2;
+    }
+    auto const t = std::make_unique<T>();
+    isotropic(*t);
+    anisotropic(*t);
+    sheen(*t);
+    std::FILE* const f = std::fopen(argv[1], "wb");
+    if (!f || std::fwrite(t.get(), sizeof(T), 1, f) != 1 || std::fclose(f) != 0) {
+        std::fprintf(stderr, "layer_albedos: cannot write %s\n", argv[1]);
+        return 4;
+    }
+    return 0;
+}
