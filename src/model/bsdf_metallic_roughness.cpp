@@ -154,9 +154,9 @@ struct Base {
     }
 };
 
-/// GGX without F: D G / (4 cos cos), wo and wi above.
+/// GGX without F: D G / (4 cos cos), wo and wi above; 0 where floats cannot tell them from the horizon.
 float facet_brdf(Microfacets const& m, Vec3 wo, Vec3 wi, Vec3 wm) {
-    return microfacet_d(m, wm) * microfacet_g(m, wo, wi) / (4.0f * wo.z * wi.z);
+    return microfacet_d(m, wm) * microfacet_g(m, wo, wi) / max(4.0f * wo.z * wi.z, 1e-30f);
 }
 Microfacets coat_facets(B const& b) { return {b.clearcoat_alpha, b.clearcoat_alpha}; }
 
@@ -213,7 +213,7 @@ Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
         if (!(m.across_o > 0.0f)) return {};
         // Walter et al. 2007, eq. 21; PBRT 4th ed., eq. 9.40.
         float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g(b.facets, v.wo, wi) * m.across_o *
-                           refraction_jacobian(m, v.eta) / (v.wo.z * abs_cos_theta(wi));
+                           refraction_jacobian(m, v.eta) / max(v.wo.z * abs_cos_theta(wi), 1e-30f);
         f = split(v, m.across_o).transmitted * (btdf * refraction_scale(mode, v.eta));
     } else {
         // Two rough sides close together: as spread as reflection, on the other side.

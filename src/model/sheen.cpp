@@ -22,7 +22,7 @@ float sheen_brdf(float alpha, Vec3 wo, Vec3 wi) {
     float const across2 = h.x * h.x + h.y * h.y;
     float const d = sheen_density(across2 / (across2 + h.z * h.z), alpha);
     float const shadowing = 1.0f + sheen_lambda(wo.z, alpha) + sheen_lambda(wi.z, alpha);
-    float const f = d / (4.0f * wo.z * wi.z * shadowing);
+    float const f = d / (max(4.0f * wo.z * wi.z, 1e-30f) * shadowing);
     return f / (max(1.0f, paper_albedo(alpha, wo.z)) * max(1.0f, paper_albedo(alpha, wi.z)));
 }
 
