@@ -131,11 +131,12 @@ struct Base {
 
     explicit Base(B const& model) : b(model), mean(schlick_mean(b.facets)), top(at_least(b.f0, b.f0_top)) {
         if (makes_up()) {
-            Spectrum const glass = schlick(top, Spectrum(b.f90), 1.0f / 21.0f);
-            glass_ms = multiscatter_fresnel(glass, mean.one);
-            Spectrum const f0 = b.f0 * (1.0f - b.metallic) + b.base_color * b.metallic;
-            float const f90 = b.f90 * (1.0f - b.metallic) + b.metallic;
-            ms = multiscatter_fresnel(schlick(f0, Spectrum(f90), 1.0f / 21.0f), mean.one);
+            auto const lost_and_found = [&](Spectrum f0, float f90) {
+                return multiscatter_fresnel(schlick(f0, Spectrum(f90), 1.0f / 21.0f), mean.one);
+            };
+            glass_ms = lost_and_found(top, b.f90);
+            ms = lost_and_found(b.f0, b.f90) * (1.0f - b.metallic) +
+                 lost_and_found(b.base_color, 1.0f) * b.metallic;
         }
         specular_mean = mean.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - mean.one);
     }
@@ -232,10 +233,11 @@ Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
 // --- choosing -------------------------------------------------------------------------------------------------------------
 enum Lobe : std::uint8_t {
     CoatLobe,
-    SheenLobe,
-    FacetLobe,    // reflected or transmitted
-    DiffuseLobe,  // and what makes up for multiple reflection
-    ThroughLobe,  // the same for thin walls
+    // Sheen, and what makes up for multiple reflection: both are brightest at the horizon, where a cosine draws too seldom.
+    EvenLobe,
+    FacetLobe,  // reflected or transmitted
+    DiffuseLobe,
+    ThroughLobe,  // what makes up for multiple reflection in thin walls, on the other side
     UnbentLobe,   // straight on, through a solid of the outside's index
     kLobes
 };
@@ -282,7 +284,7 @@ Shares shares(View const& v) {
         Spectrum const below = past * (1.0f - coat);
         s[CoatLobe] = Spectrum(coat);
         if (b.has_sheen())
-            s[SheenLobe] = b.sheen_color * (sheen_albedo(b.sheen_alpha, v.wo.z) * (1.0f - coat));
+            s[EvenLobe] = b.sheen_color * (sheen_albedo(b.sheen_alpha, v.wo.z) * (1.0f - coat));
         Spectrum const f0 = b.f0 * (1.0f - b.metallic) + b.base_color * b.metallic;
         Spectrum const f90(b.f90 * (1.0f - b.metallic) + b.metallic);
         Spectrum const one(1.0f);
@@ -293,7 +295,7 @@ Shares shares(View const& v) {
         s[DiffuseLobe] = b.base_color * b.diffusing() * (one - o.specular);
         if (base.makes_up()) {
             float const lost = 1.0f - o.single.one;
-            s[DiffuseLobe] += base.ms * lost;
+            s[EvenLobe] += base.ms * below * lost;
             if (!b.solid) s[ThroughLobe] = (one - base.glass_ms) * through * lost;
         }
         if (b.unbent() && !b.facets.smooth())
@@ -342,7 +344,7 @@ float density(View const& v, Chances const& c, Vec3 wi, HemisphereSampling how) 
     B const& b = v.b;
     bool const rough = !b.facets.smooth();
     if (wi.z > 0.0f) {
-        float d = c.p[DiffuseLobe] * hemisphere_pdf(wi.z, how) + c.p[SheenLobe] * kUniformHemispherePdf;
+        float d = c.p[DiffuseLobe] * hemisphere_pdf(wi.z, how) + c.p[EvenLobe] * kUniformHemispherePdf;
         Vec3 const wm = normalize(v.wo + wi);
         float const across = dot(v.wo, wm);
         if (b.has_rough_coat() && c.p[CoatLobe] > 0.0f)
@@ -359,7 +361,7 @@ float density(View const& v, Chances const& c, Vec3 wi, HemisphereSampling how) 
     if (!b.solid) {
         Vec3 const wm = normalize(v.wo + flipped(wi));
         float const across = dot(v.wo, wm);
-        return c.p[ThroughLobe] * hemisphere_pdf(-wi.z, how) +
+        return c.p[ThroughLobe] * kUniformHemispherePdf +
                c.p[FacetLobe] * (1.0f - reflect_probability(split(v, across))) *
                    microfacet_pdf(b.facets, v.wo, wm) / (4.0f * across);
     }
@@ -454,14 +456,14 @@ std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mod
             if (!(wi.z > 0.0f)) return std::nullopt;
             break;
         }
-        case SheenLobe:
+        case EvenLobe:
             wi = square_to_uniform_hemisphere(u);
             break;
         case DiffuseLobe:
             wi = sample_hemisphere(u, how);
             break;
         case ThroughLobe:
-            wi = flipped(sample_hemisphere(u, how));
+            wi = flipped(square_to_uniform_hemisphere(u));
             break;
         case UnbentLobe:
             return straight_on(v, p, mode);
