@@ -105,16 +105,22 @@ void anisotropic(T& t) {
         for (int q = 0; q <= T::kRatio; ++q) {
             double const ax = part(r, T::kMajor) * part(r, T::kMajor);
             double const ay = std::max(1e-5, ax * part(q, T::kRatio) * part(q, T::kRatio));
-            double sum = 0;
+            auto& one = t.anisotropic_one[at(r)][at(q)];
+            auto& edge = t.anisotropic_edge[at(r)][at(q)];
+            double one_sum = 0, edge_sum = 0;
             for (int k = 0; k <= T::kTurns; ++k) {
-                auto& row = t.anisotropic[at(r)][at(q)][at(k)];
                 for (int i = 0; i <= T::kFewAngles; ++i) {
                     Direction const w = direction(cosine(i, T::kFewAngles), part(k, T::kTurns) * kPiD / 2);
-                    row[at(i)] = static_cast<float>(facets({ax, ay}, w, 24, 24).one);
+                    Pair const p = facets({ax, ay}, w, 24, 24);
+                    one[at(k)][at(i)] = static_cast<float>(p.one);
+                    edge[at(k)][at(i)] = static_cast<float>(p.edge);
                 }
-                sum += mean(row) * (k == 0 || k == T::kTurns ? 0.5 : 1.0);
+                double const weight = (k == 0 || k == T::kTurns ? 0.5 : 1.0) / T::kTurns;
+                one_sum += mean(one[at(k)]) * weight;
+                edge_sum += mean(edge[at(k)]) * weight;
             }
-            t.anisotropic_mean[at(r)][at(q)] = static_cast<float>(sum / T::kTurns);
+            t.anisotropic_one_mean[at(r)][at(q)] = static_cast<float>(one_sum);
+            t.anisotropic_edge_mean[at(r)][at(q)] = static_cast<float>(edge_sum);
         }
 }
 

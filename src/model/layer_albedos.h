@@ -16,9 +16,10 @@ struct LayerAlbedos {
     /// Isotropic facets, roughness 0 ... 1: with F = 1, and with F = (1 - c)^5.
     std::array<Row<kAngles>, kRough + 1> one, edge;
     Row<kRough> one_mean, edge_mean;
-    /// Anisotropic ones with F = 1: roughness along x 0 ... 1, that along y as a part of it, azimuth 0 ... pi / 2 from x.
-    std::array<std::array<std::array<Row<kFewAngles>, kTurns + 1>, kRatio + 1>, kMajor + 1> anisotropic;
-    std::array<Row<kRatio>, kMajor + 1> anisotropic_mean;
+    /// Anisotropic ones: roughness along x 0 ... 1, that along y as a part of it, azimuth 0 ... pi / 2 from x.
+    using Azimuths = std::array<Row<kFewAngles>, kTurns + 1>;
+    std::array<std::array<Azimuths, kRatio + 1>, kMajor + 1> anisotropic_one, anisotropic_edge;
+    std::array<Row<kRatio>, kMajor + 1> anisotropic_one_mean, anisotropic_edge_mean;
     /// White sheen, from its least roughness to 1.
     std::array<Row<kAngles>, kRough + 1> sheen;
 };

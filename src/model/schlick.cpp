@@ -30,25 +30,24 @@ SchlickAlbedo schlick_albedo(float mu, float alpha) {
 }
 
 SchlickAlbedo schlick_albedo(Microfacets const& m, Vec3 w) {
-    SchlickAlbedo a = schlick_albedo(w.z, std::sqrt(m.ax * m.ay));
-    if (m.ax == m.ay || m.smooth()) return a;
+    if (m.ax == m.ay || m.smooth()) return schlick_albedo(w.z, m.ax);
     Pair const p = pair_of(m);
     TablePlace const turn{std::atan2(std::abs(w.y), std::abs(w.x)) / kPiOver2, T::kTurns};
-    a.one = between(nephroid_layer_albedos.anisotropic, p.major, p.ratio, turn,
-                    TablePlace{std::sqrt(w.z), T::kFewAngles});
-    a.edge = min(a.edge, a.one);
-    return a;
+    TablePlace const angle{std::sqrt(w.z), T::kFewAngles};
+    return {between(nephroid_layer_albedos.anisotropic_one, p.major, p.ratio, turn, angle),
+            between(nephroid_layer_albedos.anisotropic_edge, p.major, p.ratio, turn, angle)};
 }
 
 SchlickAlbedo schlick_mean(Microfacets const& m) {
     if (m.smooth()) return {1.0f, 1.0f / 21.0f};
-    TablePlace const rough{std::sqrt(std::sqrt(m.ax * m.ay)), T::kRough};
-    SchlickAlbedo a{between(nephroid_layer_albedos.one_mean, rough),
-                    between(nephroid_layer_albedos.edge_mean, rough)};
-    if (m.ax == m.ay) return a;
+    if (m.ax == m.ay) {
+        TablePlace const rough{std::sqrt(m.ax), T::kRough};
+        return {between(nephroid_layer_albedos.one_mean, rough),
+                between(nephroid_layer_albedos.edge_mean, rough)};
+    }
     Pair const p = pair_of(m);
-    a.one = between(nephroid_layer_albedos.anisotropic_mean, p.major, p.ratio);
-    return a;
+    return {between(nephroid_layer_albedos.anisotropic_one_mean, p.major, p.ratio),
+            between(nephroid_layer_albedos.anisotropic_edge_mean, p.major, p.ratio)};
 }
 
 }  // namespace nephroid
