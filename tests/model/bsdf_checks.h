@@ -171,9 +171,7 @@ class AdaptiveCells {
         Estimate const low = rule(f, a), high = rule(f, b);
         double const sum = low.inside + high.inside;
         bool const tail = whole.corners > 4 * whole.inside + tolerance;
-        // Samples fell into every cell: no density at all may be an edge that runs between the points.
-        bool const blind = sum == 0 && depth < 6;
-        if (depth >= 40 || (!peak && !tail && !blind && std::abs(sum - whole.inside) <= tolerance)) return sum;
+        if (depth >= 40 || (!peak && !tail && std::abs(sum - whole.inside) <= tolerance)) return sum;
         return refine(f, a, low, tolerance, depth + 1) + refine(f, b, high, tolerance, depth + 1);
     }
 
