@@ -155,9 +155,9 @@ struct Base {
     }
 };
 
-/// GGX without F: D G / (4 cos cos), wo and wi above; 0 where floats cannot tell them from the horizon.
+/// GGX without F: D G / (4 cos cos), wo and wi above.
 float facet_brdf(Microfacets const& m, Vec3 wo, Vec3 wi, Vec3 wm) {
-    return microfacet_d(m, wm) * microfacet_g(m, wo, wi) / max(4.0f * wo.z * wi.z, 1e-30f);
+    return 0.25f * microfacet_d(m, wm) * microfacet_g_over_cosines(m, wo, wi);
 }
 Microfacets coat_facets(B const& b) { return {b.clearcoat_alpha, b.clearcoat_alpha}; }
 
@@ -167,7 +167,8 @@ struct Facet {
     float across_o = 0, across_i = 0;  // wo.wm > 0, wi.wm
 };
 Facet refracting_facet(View const& v, Vec3 wi) {
-    Vec3 wm = v.wo + wi * v.eta;
+    // In one order, whichever is wo, so that both ways round to the same facet.
+    Vec3 wm = v.inside ? wi + v.wo * v.b.eta : v.wo + wi * v.b.eta;
     float const len2 = length_squared(wm);
     if (!(len2 > 0.0f)) return {};
     wm = wm / std::sqrt(len2);
@@ -213,8 +214,8 @@ Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
         Facet const m = refracting_facet(v, wi);
         if (!(m.across_o > 0.0f)) return {};
         // Walter et al. 2007, eq. 21; PBRT 4th ed., eq. 9.40.
-        float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g(b.facets, v.wo, wi) * m.across_o *
-                           refraction_jacobian(m, v.eta) / max(v.wo.z * abs_cos_theta(wi), 1e-30f);
+        float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g_over_cosines(b.facets, v.wo, wi) *
+                           m.across_o * refraction_jacobian(m, v.eta);
         f = split(v, m.across_o).transmitted * (btdf * refraction_scale(mode, v.eta));
     } else {
         // Two rough sides close together: as spread as reflection, on the other side.

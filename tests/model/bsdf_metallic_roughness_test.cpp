@@ -508,3 +508,129 @@ TEST_CASE("metallic-roughness: dispersion is Cauchy's, and the hero's alone") {
     }
     CHECK(cauchy_index(1.1f, 30, 800) == 1);
 }
+
+// --- from materials --------------------------------------------------------------------------------------------------------------
+namespace {
+
+Bsdf made(Scene& s, MetallicRoughnessMaterial const& m, Wavelengths const& lambda) {
+    MaterialId const id = s.add(Material{m, "", {}});
+    Assets const assets(s);
+    Bsdf b;
+    REQUIRE(make_bsdf(assets, id, {}, lambda, b));
+    return b;
+}
+Model made_model(Scene& s, MetallicRoughnessMaterial const& m,
+                 Wavelengths const& lambda = Wavelengths::rgb()) {
+    return std::get<Model>(made(s, m, lambda));
+}
+MetallicRoughnessMaterial plain(Scene& s) {
+    MetallicRoughnessMaterial m;
+    m.base_color = add_color(s, {0.9f, 0.5f, 0.2f});
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("metallic-roughness: defaults and ranges of the material") {
+    Scene s;
+    // glTF's defaults: metal, rough.
+    Model const plainest = made_model(s, plain(s));
+    CHECK(plainest.metallic == 1);
+    CHECK(plainest.facets.ax == 1);
+    CHECK(plainest.facets.multiscatter);
+    CHECK(plainest.base_color[0] == doctest::Approx(0.9));
+    CHECK(plainest.base_color[3] == 0);
+    CHECK(plainest.f0[0] == doctest::Approx(0.04));
+    CHECK(plainest.clearcoat == 0);
+    CHECK_FALSE(plainest.has_sheen());
+    CHECK_FALSE(plainest.solid);
+
+    // A texture may hold anything.
+    for (float const wild : {-3.0f, 0.0f, 1e-8f, 1e-3f, 0.5f, 1.0f, 10.0f, 1e30f}) {
+        MetallicRoughnessMaterial m = plain(s);
+        TextureId const t = add_number(s, wild);
+        float const c = clamp(wild, 0, 1);  // colours are checked before
+        m.metallic = m.roughness = m.specular.factor = m.transmission.factor = t;
+        m.clearcoat = {t, t};
+        m.sheen = {add_color(s, {c, 1, 0}), t};
+        m.anisotropy = {t, 1};
+        m.specular.color = add_color(s, {c, c, c});
+        for (bool const thin : {true, false})
+            for (float const ior : {0.0f, 1.0f, 1.0005f, 1.5f, 100.0f}) {
+                m.transmission.thin = thin;
+                m.index = {ior, 0.5f};
+                m.metallic = add_number(s, wild > 0.6f ? 0.5f : wild);
+                CAPTURE(wild);
+                CAPTURE(ior);
+                CAPTURE(thin);
+                Bsdf const b = made(s, m, ior == 1.5f ? Wavelengths::spectral(0.3f) : Wavelengths::rgb());
+                Model const& k = std::get<Model>(b);
+                CHECK((k.metallic >= 0 && k.metallic <= 1));
+                CHECK((k.facets.ax >= k.facets.ay && k.facets.ax <= 1));
+                CHECK((k.facets.smooth() || k.facets.ay >= 1e-4f));
+                check_samples(b, {.n = 200, .directions = {}});  // extreme numbers alone
+                CHECK(furnace(b, direction(0.7, 1), 30).mean() < 1.05);
+                CHECK(furnace(b, direction(2.2, 1), 30).mean() < 1.05);
+            }
+    }
+    // Roughness 0 and nearly 0 is a mirror, and clear glass is nothing but delta parts.
+    for (float const r : {0.0f, 1e-8f, 0.03f}) {
+        MetallicRoughnessMaterial m = plain(s);
+        m.roughness = add_number(s, r);
+        CHECK(is_delta(made(s, m, Wavelengths::rgb())));
+        m.metallic = add_number(s, 0);
+        CHECK_FALSE(is_delta(made(s, m, Wavelengths::rgb())));
+        m.transmission.factor = add_number(s, 1);
+        m.transmission.thin = false;
+        CHECK(is_delta(made(s, m, Wavelengths::rgb())));
+    }
+    // alpha = roughness^2, and anisotropy lengthens it along the turned axis.
+    MetallicRoughnessMaterial m = plain(s);
+    m.roughness = add_number(s, 0.5f);
+    m.anisotropy = {add_number(s, 0.6f), 0.5f};
+    Model const brushed = made_model(s, m);
+    CHECK(brushed.facets.ay == doctest::Approx(0.25));
+    CHECK(brushed.facets.ax == doctest::Approx(0.25 + 0.75 * 0.36));
+    CHECK(brushed.axis_x == doctest::Approx(std::cos(0.5)));
+    CHECK(brushed.axis_y == doctest::Approx(std::sin(0.5)));
+}
+
+TEST_CASE("metallic-roughness: index, specular colour and dispersion of the material") {
+    Scene s;
+    MetallicRoughnessMaterial m = plain(s);
+    m.metallic = add_number(s, 0);
+    m.specular = {add_number(s, 0.5f), add_color(s, {0.2f, 0.6f, 1})};
+    m.index.ior = 2;
+    Model const b = made_model(s, m);
+    // f0 = ((ior - 1) / (ior + 1))^2 color, at most 1; both ends times the factor.
+    for (int i = 0; i < 3; ++i)
+        CHECK(b.f0[i] == doctest::Approx(0.5 / 9 * (i == 0 ? 0.2 : i == 1 ? 0.6 : 1.0)).epsilon(1e-4));
+    CHECK(b.f0_top == doctest::Approx(0.5 / 9).epsilon(1e-4));
+    CHECK(b.f90 == 0.5f);
+    // Spectrally, the top is the same for all wavelengths.
+    for (float const u : {0.01f, 0.13f, 0.2f})
+        CHECK(made_model(s, m, Wavelengths::spectral(u)).f0_top == b.f0_top);
+    // ior 0: F is 1 before the colour, and light that is let through is not bent.
+    m.index.ior = 0;
+    m.specular.factor = {};
+    m.transmission = {add_number(s, 1), false, {}};
+    Model const infinite = made_model(s, m);
+    CHECK(infinite.f0[1] == doctest::Approx(0.6).epsilon(1e-4));
+    CHECK(infinite.eta == 1);
+
+    // Dispersion: the hero's index by Cauchy, in solids only, and never in rgb.
+    m.index = {1.5f, 1.0f};
+    m.specular = {};
+    for (float const u : {0.05f, 0.1f, 0.2f}) {
+        auto const lambda = Wavelengths::spectral(u);
+        Model const glass = made_model(s, m, lambda);
+        CHECK(glass.eta == cauchy_index(1.5f, 1, lambda.lambda(0)));
+        CHECK(traits(glass).hero_only);
+        CHECK(glass.f0[0] == doctest::Approx(0.04));
+    }
+    CHECK(made_model(s, m).eta == 1.5f);
+    CHECK_FALSE(traits(made_model(s, m)).hero_only);
+    m.transmission.thin = true;
+    CHECK_FALSE(traits(made_model(s, m, Wavelengths::spectral(0.1f))).hero_only);
+    CHECK(sizeof(Bsdf) <= 144);
+}
