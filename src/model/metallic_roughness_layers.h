@@ -152,4 +152,36 @@ struct Base {
     }
 };
 
+// --- facets -----------------------------------------------------------------------------------------------------------------
+/// GGX without F: D G / (4 cos cos), wo and wi above.
+inline float facet_brdf(Microfacets const& m, Vec3 wo, Vec3 wi, Vec3 wm) {
+    return 0.25f * microfacet_d(m, wm) * microfacet_g_over_cosines(m, wo, wi);
+}
+inline Microfacets coat_facets(MetallicRoughnessBsdf const& b) {
+    return {b.clearcoat_alpha, b.clearcoat_alpha};
+}
+
+/// Half the way between wo and wi, above; wi is refracted by eta, or, above, reflected. 0 where there is no such facet.
+struct Facet {
+    Vec3 wm{0, 0, 0};
+    float across_o = 0, across_i = 0;  // wo.wm > 0, wi.wm
+};
+inline Facet refracting_facet(View const& v, Vec3 wi) {
+    // In one order, whichever is wo, so that both ways round to the same facet.
+    Vec3 wm = v.inside ? wi + v.wo * v.b.eta : v.wo + wi * v.b.eta;
+    float const len2 = length_squared(wm);
+    if (!(len2 > 0.0f)) return {};
+    wm = wm / std::sqrt(len2);
+    if (wm.z < 0.0f) wm = -wm;
+    Facet const f{wm, dot(v.wo, wm), dot(wi, wm)};
+    return f.across_o > 0.0f && f.across_i < 0.0f ? f : Facet{};
+}
+/// dwm / dwi of refraction (PBRT 4th ed., eq. 9.36).
+inline float refraction_jacobian(Facet const& f, float eta) {
+    return std::abs(f.across_i) / sqr(f.across_i + f.across_o / eta);
+}
+
+/// f towards wi, both in the facets' frame (bsdf_metallic_roughness.cpp).
+Spectrum value(View const& v, Vec3 wi, Mode mode);
+
 }  // namespace nephroid::gltf
