@@ -124,6 +124,58 @@ void anisotropic(T& t) {
         }
 }
 
+// --- solids ---------------------------------------------------------------------------------------------------------------
+/// Sum over the visible normals of what each reflects and refracts, F = f0 (1 - e) + f90 e with e = (1 - c)^5 outside.
+T::Solid boundary(double alpha, double index, bool inside, double mu) {
+    constexpr int kAzimuths = 16, kHeights = 32;
+    Ggx const m{alpha, alpha};
+    Direction const w = direction(mu, 0);
+    double const lo = m.lambda(w), eta = inside ? 1 / index : index;
+    double base = 0, first = 0, edge = 0;
+    for (int i = 0; i < kAzimuths; ++i)
+        for (int k = 0; k < kHeights; ++k) {
+            Direction const n = m.normal(w, (i + 0.5) / kAzimuths, (k + 0.5) / kHeights);
+            double const c = std::min(dot(w, n), 1.0);
+            Direction const wi{2 * c * n.x - w.x, 2 * c * n.y - w.y, 2 * c * n.z - w.z};
+            double const r = wi.z > 0 ? (1 + lo) / (1 + lo + m.lambda(wi)) : 0;
+            double const sin2 = (1 - c * c) / (eta * eta);
+            if (sin2 >= 1) {
+                base += r;
+                continue;
+            }
+            double const cos_t = std::sqrt(1 - sin2), s = c / eta - cos_t;
+            Direction const wt{s * n.x - w.x / eta, s * n.y - w.y / eta, s * n.z - w.z / eta};
+            double const t = wt.z < 0 ? (1 + lo) / (1 + lo + m.lambda(wt)) : 0;
+            double const e = std::pow(1 - (inside ? cos_t : c), 5);
+            base += t;
+            first += (1 - e) * (r - t);
+            edge += e * (r - t);
+        }
+    double const n = kAzimuths * kHeights;
+    return {static_cast<float>(base / n), static_cast<float>(first / n), static_cast<float>(edge / n)};
+}
+void solids(T& t) {
+    for (int side = 0; side < 2; ++side)
+        for (int k = 0; k <= T::kIndices; ++k)
+            for (int r = 0; r <= T::kSolidRough; ++r) {
+                double const least = 1 / static_cast<double>(T::kIndexMax);
+                double const index = 1 / (least + (1 - least) * part(k, T::kIndices));
+                double const alpha = std::max(1e-3, part(r, T::kSolidRough) * part(r, T::kSolidRough));
+                auto& row = t.solid[at(side)][at(k)][at(r)];
+                T::Row<T::kFewAngles> base, first, edge;
+                for (int i = 0; i <= T::kFewAngles; ++i) {
+                    T::Solid const s = boundary(alpha, index, side == 1, cosine(i, T::kFewAngles));
+                    row[at(i)] = s;
+                    base[at(i)] = s.base;
+                    first[at(i)] = s.first;
+                    edge[at(i)] = s.edge;
+                }
+                t.solid_mean[at(side)][at(k)][at(r)] = {static_cast<float>(mean(base)),
+                                                        static_cast<float>(mean(first)),
+                                                        static_cast<float>(mean(edge))};
+            }
+}
+
 // --- sheen ------------------------------------------------------------------------------------------------------------------
 /// Midpoint rule, with cosines spaced as squares because all happens at the horizon.
 double sheen_albedo_of(double mu, double alpha) {
@@ -165,6 +217,7 @@ int main(int argc, char** argv) {
     auto const t = std::make_unique<T>();
     isotropic(*t);
     anisotropic(*t);
+    solids(*t);
     sheen(*t);
     std::FILE* const f = std::fopen(argv[1], "wb");
     if (!f || std::fwrite(t.get(), sizeof(T), 1, f) != 1 || std::fclose(f) != 0) {

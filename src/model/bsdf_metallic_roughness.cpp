@@ -17,6 +17,7 @@ Spectrum reflected(View const& v, Vec3 wi) {
     float const c = dot(v.wo, wm);
     Spectrum specular;
     if (!b.facets.smooth()) specular = split(v, c).reflected * facet_brdf(b.facets, v.wo, wi, wm);
+    if (SolidLoss::wanted(b)) specular += Spectrum(SolidLoss(b).value(v, wi) * b.transmitting() * kInvPi);
     if (v.inside) return specular + b.base_color * (b.diffusing() * kInvPi);
 
     Base const base(b);
@@ -42,11 +43,14 @@ Spectrum transmitted(View const& v, Vec3 wi, Mode mode) {
     Spectrum f;
     if (b.solid) {
         Facet const m = refracting_facet(v, wi);
-        if (!(m.across_o > 0.0f)) return {};
-        // Walter et al. 2007, eq. 21; PBRT 4th ed., eq. 9.40.
-        float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g_over_cosines(b.facets, v.wo, wi) *
-                           m.across_o * refraction_jacobian(m, v.eta);
-        f = split(v, m.across_o).transmitted * (btdf * refraction_scale(mode, v.eta));
+        if (m.across_o > 0.0f) {
+            // Walter et al. 2007, eq. 21; PBRT 4th ed., eq. 9.40.
+            float const btdf = microfacet_d(b.facets, m.wm) * microfacet_g_over_cosines(b.facets, v.wo, wi) *
+                               m.across_o * refraction_jacobian(m, v.eta);
+            f = split(v, m.across_o).transmitted * btdf;
+        }
+        if (SolidLoss::wanted(b)) f += b.base_color * (SolidLoss(b).value(v, wi) * b.transmitting() * kInvPi);
+        f *= refraction_scale(mode, v.eta);
     } else {
         // Two rough sides close together: as spread as reflection, on the other side.
         Vec3 const back = flipped(wi);

@@ -20,6 +20,17 @@ struct LayerAlbedos {
     using Azimuths = std::array<Row<kFewAngles>, kTurns + 1>;
     std::array<std::array<Azimuths, kRatio + 1>, kMajor + 1> anisotropic_one, anisotropic_edge;
     std::array<Row<kRatio>, kMajor + 1> anisotropic_one_mean, anisotropic_edge_mean;
+    /// What isotropic facets of a solid's boundary scatter in all, linear in its f0 and f90: base + f0 first + f90 edge. From
+    /// outside and from inside; 1 / index from 1 / kIndexMax to 1, roughness 0 ... 1.
+    static constexpr int kIndices = 12, kSolidRough = 20;
+    static constexpr float kIndexMax = 3;
+    struct Solid {
+        float base, first, edge;
+    };
+    template <class X>
+    using BySolid = std::array<std::array<std::array<X, kSolidRough + 1>, kIndices + 1>, 2>;
+    BySolid<std::array<Solid, kFewAngles + 1>> solid;
+    BySolid<Solid> solid_mean;
     /// White sheen, from its least roughness to 1.
     std::array<Row<kAngles>, kRough + 1> sheen;
 };

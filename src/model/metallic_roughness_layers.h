@@ -111,6 +111,35 @@ inline Passed passed(View const& v, Vec3 wi) {
     return p;
 }
 
+// --- multiple reflection and refraction in a solid's boundary ---------------------------------------------------------------
+/// Kulla & Conty's idea for both sides of a boundary: what one encounter loses of light from w, L(w), comes out in shares like
+/// L(w') cos, `through` of it on the other side. Reciprocity holds where through_out mean L_out = through_in mean L_in index^2;
+/// of all such pairs this is the one whose sum is 1.
+struct SolidLoss {
+    SolidBoundary boundary;
+    float mean[2];     // outside, inside
+    float through[2];  // from outside, from inside
+
+    static bool wanted(MetallicRoughnessBsdf const& b) {
+        return b.solid && b.facets.multiscatter && b.transmitting() > 0.0f && !b.facets.smooth() &&
+               !b.unbent() && b.facets.ax == b.facets.ay && SolidBoundary{0, b.eta, 0, 0}.known();
+    }
+    explicit SolidLoss(MetallicRoughnessBsdf const& b) : boundary{b.facets.ax, b.eta, b.f0_top, b.f90} {
+        mean[0] = max(boundary.lost_mean(false), 1e-6f);
+        mean[1] = max(boundary.lost_mean(true), 1e-6f);
+        float const k = mean[0] / (mean[1] * sqr(b.eta));
+        through[0] = 1.0f / (1.0f + k);
+        through[1] = k / (1.0f + k);
+    }
+    /// pi f of white light from wo; the squeezing of radiance is not in it.
+    [[nodiscard]] float value(View const& v, Vec3 wi) const {
+        bool const passes = wi.z < 0.0f;
+        bool const end = passes ? !v.inside : v.inside;
+        float const share = passes ? through[v.inside] : 1.0f - through[v.inside];
+        return share * boundary.lost(v.wo.z, v.inside) * boundary.lost(abs_cos_theta(wi), end) / mean[end];
+    }
+};
+
 // --- the base -------------------------------------------------------------------------------------------------------------
 /// Albedos of the facets from one direction; what one reflection loses is 1 - single.one.
 struct BaseAlbedo {
@@ -132,8 +161,8 @@ struct Base {
                 return multiscatter_fresnel(schlick(f0, Spectrum(f90), 1.0f / 21.0f), mean.one);
             };
             glass_ms = lost_and_found(top, b.f90);
-            ms = lost_and_found(b.f0, b.f90) * (1.0f - b.metallic) +
-                 lost_and_found(b.base_color, 1.0f) * b.metallic;
+            float const reflecting = SolidLoss::wanted(b) ? b.diffusing() : 1.0f - b.metallic;
+            ms = lost_and_found(b.f0, b.f90) * reflecting + lost_and_found(b.base_color, 1.0f) * b.metallic;
         }
         specular_mean = mean.of(top, Spectrum(b.f90)) + glass_ms * (1.0f - mean.one);
     }

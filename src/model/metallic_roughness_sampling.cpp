@@ -21,7 +21,7 @@ enum Lobe : std::uint8_t {
     EvenLobe,
     FacetLobe,  // reflected or transmitted
     DiffuseLobe,
-    ThroughLobe,  // what makes up for multiple reflection in thin walls, on the other side
+    ThroughLobe,  // what makes up for multiple reflection, on the other side
     UnbentLobe,   // straight on, through a solid of the outside's index
     kLobes
 };
@@ -45,6 +45,15 @@ struct Shares {
     std::array<Spectrum, kLobes> s{};
     Spectrum sum;
 };
+/// What a solid's rough boundary makes up for.
+void add_loss(View const& v, Spectrum below, std::array<Spectrum, kLobes>& s) {
+    B const& b = v.b;
+    if (!SolidLoss::wanted(b)) return;
+    SolidLoss const loss(b);
+    Spectrum const lost = below * (loss.boundary.lost(v.wo.z, v.inside) * b.transmitting());
+    s[EvenLobe] += lost * (1.0f - loss.through[v.inside]);
+    s[ThroughLobe] += lost * b.base_color * loss.through[v.inside];
+}
 Shares shares(View const& v) {
     B const& b = v.b;
     Shares r;
@@ -60,6 +69,7 @@ Shares shares(View const& v) {
                            one.of(b.base_color, Spectrum(1.0f)) * b.metallic;
             s[UnbentLobe] = straight_share(v);
         }
+        add_loss(v, Spectrum(1.0f), s);
     } else {
         Base const base(b);
         BaseAlbedo const o = base.albedo(v.wo);
@@ -88,6 +98,7 @@ Shares shares(View const& v) {
             s[FacetLobe] += refracted;
         for (int const k : {FacetLobe, DiffuseLobe, ThroughLobe, UnbentLobe})
             s[static_cast<std::size_t>(k)] *= below;
+        add_loss(v, below, s);
         if (one_mirror(v)) {
             s[FacetLobe] += s[CoatLobe];
             s[CoatLobe] = {};
@@ -150,9 +161,10 @@ float density(View const& v, Chances const& c, Vec3 wi, HemisphereSampling how) 
                    microfacet_pdf(b.facets, v.wo, wm) / (4.0f * across);
     }
     Facet const m = refracting_facet(v, wi);
-    if (!(m.across_o > 0.0f)) return 0.0f;
-    return c.p[FacetLobe] * (1.0f - reflect_probability(split(v, m.across_o))) *
-           microfacet_pdf(b.facets, v.wo, m.wm) * refraction_jacobian(m, v.eta);
+    float const through = c.p[ThroughLobe] * kUniformHemispherePdf;
+    if (!(m.across_o > 0.0f)) return through;
+    return through + c.p[FacetLobe] * (1.0f - reflect_probability(split(v, m.across_o))) *
+                         microfacet_pdf(b.facets, v.wo, m.wm) * refraction_jacobian(m, v.eta);
 }
 
 // --- delta parts ----------------------------------------------------------------------------------------------------------
@@ -238,6 +250,7 @@ std::optional<BsdfSample> sample(B const& b, Vec3 wo, float uc, Vec2 u, Mode mod
             break;
         case ThroughLobe:
             wi = flipped(square_to_uniform_hemisphere(u));
+            eta = v.eta;
             break;
         case UnbentLobe:
             return straight_on(v, p, mode);

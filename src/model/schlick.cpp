@@ -50,4 +50,27 @@ SchlickAlbedo schlick_mean(Microfacets const& m) {
             between(nephroid_layer_albedos.anisotropic_edge_mean, p.major, p.ratio)};
 }
 
+namespace {
+
+TablePlace index_place(SolidBoundary const& b) {
+    constexpr float kLeast = 1.0f / T::kIndexMax;
+    return {(1.0f / b.index - kLeast) / (1.0f - kLeast), T::kIndices};
+}
+float lost_of(SolidBoundary const& b, T::Solid const& s) {
+    return clamp(1.0f - s.base - b.f0 * s.first - b.f90 * s.edge, 0.0f, 1.0f);
+}
+
+}  // namespace
+
+float SolidBoundary::lost(float mu, bool inside) const {
+    return lost_of(*this, between(nephroid_layer_albedos.solid[inside], index_place(*this),
+                                  TablePlace{std::sqrt(alpha), T::kSolidRough},
+                                  TablePlace{std::sqrt(mu), T::kFewAngles}));
+}
+float SolidBoundary::lost_mean(bool inside) const {
+    return lost_of(*this, between(nephroid_layer_albedos.solid_mean[inside], index_place(*this),
+                                  TablePlace{std::sqrt(alpha), T::kSolidRough}));
+}
+bool SolidBoundary::known() const { return index >= 1.0f && index <= T::kIndexMax; }
+
 }  // namespace nephroid

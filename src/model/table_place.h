@@ -20,8 +20,12 @@ struct TablePlace {
     }
 };
 inline float between(float value) { return value; }
+inline LayerAlbedos::Solid between(LayerAlbedos::Solid const& value) { return value; }
+inline LayerAlbedos::Solid lerp(float t, LayerAlbedos::Solid const& a, LayerAlbedos::Solid const& b) {
+    return {lerp(t, a.base, b.base), lerp(t, a.first, b.first), lerp(t, a.edge, b.edge)};
+}
 template <class A, class... Rest>
-float between(A const& nodes, TablePlace const& at, Rest const&... rest) {
+auto between(A const& nodes, TablePlace const& at, Rest const&... rest) {
     return lerp(at.t, between(nodes[at.cell], rest...), between(nodes[at.cell + 1], rest...));
 }
 

@@ -32,6 +32,16 @@ SchlickAlbedo schlick_albedo(Microfacets const& m, Vec3 w);
 /// Cosine-weighted mean of it over the hemisphere.
 SchlickAlbedo schlick_mean(Microfacets const& m);
 
+/// Boundary of a solid of isotropic facets, index > 1: what one reflection or refraction loses of light from a direction of
+/// cosine mu, outside or inside, and its cosine-weighted mean; within 0.01 (tests). F as in schlick(), by the angle outside.
+struct SolidBoundary {
+    float alpha, index, f0, f90;
+    [[nodiscard]] float lost(float mu, bool inside) const;
+    [[nodiscard]] float lost_mean(bool inside) const;
+    /// Greater indices have no table.
+    [[nodiscard]] bool known() const;
+};
+
 /// What light that was reflected more than once between the facets has left, of the part that one reflection loses (Kulla & Conty
 /// 2017, slide 20; Fdez-Aguera 2019 has the same series): F^2 E / (1 - F (1 - E)), F and E means over the hemisphere.
 inline Spectrum multiscatter_fresnel(Spectrum f_mean, float e_mean) {
