@@ -1,4 +1,5 @@
-// Tabulates the directional albedos of microfacets and of sheen (src/model/layer_albedos.h), by quadrature in double.
+// Tabulates the directional albedos of microfacets and of sheen (src/model/layer_albedos.h), by quadrature in
+// double.
 //
 //   layer_albedos OUT.bin
 #include "../src/model/layer_albedos.h"
@@ -21,7 +22,7 @@ double part(int i, int cells) { return static_cast<double>(i) / cells; }
 double cosine(int i, int cells) { return std::max(kGrazing, part(i, cells) * part(i, cells)); }
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// --- microfacets --------------------------------------------------------------------------------------------------------------
+// --- microfacets -------------------------------------------------------------------------------------------
 struct Direction {
     double x, y, z;
 };
@@ -124,8 +125,9 @@ void anisotropic(T& t) {
         }
 }
 
-// --- solids ---------------------------------------------------------------------------------------------------------------
-/// Sum over the visible normals of what each reflects and refracts, F = f0 (1 - e) + f90 e with e = (1 - c)^5 outside.
+// --- solids ------------------------------------------------------------------------------------------------
+/// Sum over the visible normals of what each reflects and refracts, F = f0 (1 - e) + f90 e with e = (1 - c)^5
+/// outside.
 T::Solid boundary(double alpha, double index, bool inside, double mu) {
     constexpr int kAzimuths = 16, kHeights = 32;
     Ggx const m{alpha, alpha};
@@ -176,7 +178,7 @@ void solids(T& t) {
             }
 }
 
-// --- sheen ------------------------------------------------------------------------------------------------------------------
+// --- sheen -------------------------------------------------------------------------------------------------
 /// Midpoint rule, with cosines spaced as squares because all happens at the horizon.
 double sheen_albedo_of(double mu, double alpha) {
     constexpr int kHeights = 64, kAzimuths = 64;

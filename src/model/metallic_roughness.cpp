@@ -6,8 +6,8 @@ namespace nephroid {
 
 namespace {
 
-/// alpha = roughness^2 along the facets' x axis, and that of anisotropy across: mix(alpha, 1, strength^2) along the axis
-/// (KHR_materials_anisotropy).
+/// alpha = roughness^2 along the facets' x axis, and that of anisotropy across: mix(alpha, 1, strength^2)
+/// along the axis (KHR_materials_anisotropy).
 Microfacets facets_of(float roughness, float strength, bool multiscatter) {
     Microfacets m;
     m.multiscatter = multiscatter;
@@ -42,7 +42,8 @@ void make(MetallicRoughnessMaterial const& m, MaterialPoint const& p, Bsdf& bsdf
         b.axis_x = std::cos(m.anisotropy.rotation);
         b.axis_y = std::sin(m.anisotropy.rotation);
     }
-    // ior 0 stands for infinity (KHR_materials_ior): F is 1 before colours, and nothing says how it would bend light.
+    // ior 0 stands for infinity (KHR_materials_ior): F is 1 before colours, and nothing says how it would
+    // bend light.
     float const ior = m.index.ior;
     float const r0 = sqr((ior - 1.0f) / (ior + 1.0f));
     b.f90 = share(m.specular.factor, 1.0f);

@@ -1,7 +1,8 @@
-// The parts of glTF's layered surface (model/bsdf_metallic_roughness.h) as one direction wo sees them: what a facet reflects and
-// lets through, what coat and sheen leave, and the albedos of the base.
+// The parts of glTF's layered surface (model/bsdf_metallic_roughness.h) as one direction wo sees them: what a
+// facet reflects and lets through, what coat and sheen leave, and the albedos of the base.
 //
-// Everything is in the facets' frame with wo above: directions are turned, and mirrored at the surface where wo is below.
+// Everything is in the facets' frame with wo above: directions are turned, and mirrored at the surface where
+// wo is below.
 #pragma once
 
 #include "model/bsdf_metallic_roughness.h"
@@ -48,7 +49,7 @@ struct View {
     [[nodiscard]] bool outside(Vec3 w) const { return !b.solid || (w.z > 0.0f) == !inside; }
 };
 
-// --- Fresnel --------------------------------------------------------------------------------------------------------------
+// --- Fresnel -----------------------------------------------------------------------------------------------
 /// What one facet does with white light.
 struct Split {
     Spectrum reflected, transmitted;
@@ -83,7 +84,7 @@ inline float reflect_probability(Split const& s) {
     return r + t > 0.0f ? r / (r + t) : 1.0f;
 }
 
-// --- layers ---------------------------------------------------------------------------------------------------------------
+// --- layers ------------------------------------------------------------------------------------------------
 inline float coat_albedo(MetallicRoughnessBsdf const& b, float mu) {
     return b.clearcoat > 0.0f ? b.clearcoat * schlick_albedo(mu, b.clearcoat_alpha).of(kCoatF0, 1.0f) : 0.0f;
 }
@@ -111,10 +112,10 @@ inline Passed passed(View const& v, Vec3 wi) {
     return p;
 }
 
-// --- multiple reflection and refraction in a solid's boundary ---------------------------------------------------------------
-/// Kulla & Conty's idea for both sides of a boundary: what one encounter loses of light from w, L(w), comes out in shares like
-/// L(w') cos, `through` of it on the other side. Reciprocity holds where through_out mean L_out = through_in mean L_in index^2;
-/// of all such pairs this is the one whose sum is 1.
+// --- multiple reflection and refraction in a solid's boundary ----------------------------------------------
+/// Kulla & Conty's idea for both sides of a boundary: what one encounter loses of light from w, L(w), comes
+/// out in shares like L(w') cos, `through` of it on the other side. Reciprocity holds where through_out mean
+/// L_out = through_in mean L_in index^2; of all such pairs this is the one whose sum is 1.
 struct SolidLoss {
     SolidBoundary boundary;
     float mean[2];     // outside, inside
@@ -140,7 +141,7 @@ struct SolidLoss {
     }
 };
 
-// --- the base -------------------------------------------------------------------------------------------------------------
+// --- the base ----------------------------------------------------------------------------------------------
 /// Albedos of the facets from one direction; what one reflection loses is 1 - single.one.
 struct BaseAlbedo {
     SchlickAlbedo single;
@@ -181,7 +182,7 @@ struct Base {
     }
 };
 
-// --- facets -----------------------------------------------------------------------------------------------------------------
+// --- facets ------------------------------------------------------------------------------------------------
 /// GGX without F: D G / (4 cos cos), wo and wi above.
 inline float facet_brdf(Microfacets const& m, Vec3 wo, Vec3 wi, Vec3 wm) {
     return 0.25f * microfacet_d(m, wm) * microfacet_g_over_cosines(m, wo, wi);
@@ -190,7 +191,8 @@ inline Microfacets coat_facets(MetallicRoughnessBsdf const& b) {
     return {b.clearcoat_alpha, b.clearcoat_alpha};
 }
 
-/// Half the way between wo and wi, above; wi is refracted by eta, or, above, reflected. 0 where there is no such facet.
+/// Half the way between wo and wi, above; wi is refracted by eta, or, above, reflected. 0 where there is no
+/// such facet.
 struct Facet {
     Vec3 wm{0, 0, 0};
     float across_o = 0, across_i = 0;  // wo.wm > 0, wi.wm

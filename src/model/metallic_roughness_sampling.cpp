@@ -1,6 +1,8 @@
-// glTF's layered surface: sampling. One lobe is chosen by its albedo as wo sees it; the density is that of all together.
+// glTF's layered surface: sampling. One lobe is chosen by its albedo as wo sees it; the density is that of
+// all together.
 //
-// The facets' lobe draws a normal wm first and then reflects or transmits by the Fresnel reflectance there, as PBRT 4th ed., 9.7.
+// The facets' lobe draws a normal wm first and then reflects or transmits by the Fresnel reflectance there,
+// as PBRT 4th ed., 9.7.
 #include "metallic_roughness_layers.h"
 #include "model/fresnel.h"
 #include "sampling/warp.h"
@@ -14,10 +16,11 @@ namespace {
 using namespace gltf;
 using B = MetallicRoughnessBsdf;
 
-// --- choosing -------------------------------------------------------------------------------------------------------------
+// --- choosing ----------------------------------------------------------------------------------------------
 enum Lobe : std::uint8_t {
     CoatLobe,
-    // Sheen, and what makes up for multiple reflection: both are brightest at the horizon, where a cosine draws too seldom.
+    // Sheen, and what makes up for multiple reflection: both are brightest at the horizon, where a cosine
+    // draws too seldom.
     EvenLobe,
     FacetLobe,  // reflected or transmitted
     DiffuseLobe,
@@ -167,7 +170,7 @@ float density(View const& v, Chances const& c, Vec3 wi, HemisphereSampling how) 
                          microfacet_pdf(b.facets, v.wo, m.wm) * refraction_jacobian(m, v.eta);
 }
 
-// --- delta parts ----------------------------------------------------------------------------------------------------------
+// --- delta parts -------------------------------------------------------------------------------------------
 BsdfSample delta(View const& v, Spectrum weight, Vec3 wi, float probability) {
     BsdfSample s;
     s.wi = v.from_local(wi);

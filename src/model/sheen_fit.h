@@ -1,4 +1,5 @@
-// The formulas of Conty Estevez & Kulla 2017 (see model/sheen.h), for the lobe and for the tool that tabulates its albedo.
+// The formulas of Conty Estevez & Kulla 2017 (see model/sheen.h), for the lobe and for the tool that
+// tabulates its albedo.
 #pragma once
 
 #include <algorithm>

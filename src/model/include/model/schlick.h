@@ -1,5 +1,6 @@
-// Schlick's Fresnel reflectance F = f0 + (f90 - f0) (1 - c)^5 (Schlick 1994), on mirrors and on microfacets. F is linear in f0 and
-// f90, and so are the albedos: two numbers per direction serve all colours ("split sum", Karis 2013).
+// Schlick's Fresnel reflectance F = f0 + (f90 - f0) (1 - c)^5 (Schlick 1994), on mirrors and on microfacets.
+// F is linear in f0 and f90, and so are the albedos: two numbers per direction serve all colours ("split
+// sum", Karis 2013).
 #pragma once
 
 #include "model/microfacet.h"
@@ -25,15 +26,17 @@ struct SchlickAlbedo {
     }
 };
 
-/// Of isotropic facets, from a direction of cosine mu > 0: within 0.003 (mu >= 0.03; tests). A mirror where alpha < 1e-3.
+/// Of isotropic facets, from a direction of cosine mu > 0: within 0.003 (mu >= 0.03; tests). A mirror where
+/// alpha < 1e-3.
 SchlickAlbedo schlick_albedo(float mu, float alpha);
 /// Of facets from w above, ax >= ay: within 0.01 (tests).
 SchlickAlbedo schlick_albedo(Microfacets const& m, Vec3 w);
 /// Cosine-weighted mean of it over the hemisphere.
 SchlickAlbedo schlick_mean(Microfacets const& m);
 
-/// Boundary of a solid of isotropic facets, index > 1: what one reflection or refraction loses of light from a direction of
-/// cosine mu, outside or inside, and its cosine-weighted mean; within 0.01 (tests). F as in schlick(), by the angle outside.
+/// Boundary of a solid of isotropic facets, index > 1: what one reflection or refraction loses of light from
+/// a direction of cosine mu, outside or inside, and its cosine-weighted mean; within 0.01 (tests). F as in
+/// schlick(), by the angle outside.
 struct SolidBoundary {
     float alpha, index, f0, f90;
     [[nodiscard]] float lost(float mu, bool inside) const;
@@ -42,8 +45,9 @@ struct SolidBoundary {
     [[nodiscard]] bool known() const;
 };
 
-/// What light that was reflected more than once between the facets has left, of the part that one reflection loses (Kulla & Conty
-/// 2017, slide 20; Fdez-Aguera 2019 has the same series): F^2 E / (1 - F (1 - E)), F and E means over the hemisphere.
+/// What light that was reflected more than once between the facets has left, of the part that one reflection
+/// loses (Kulla & Conty 2017, slide 20; Fdez-Aguera 2019 has the same series): F^2 E / (1 - F (1 - E)), F and
+/// E means over the hemisphere.
 inline Spectrum multiscatter_fresnel(Spectrum f_mean, float e_mean) {
     return f_mean * f_mean * e_mean / (Spectrum(1.0f) - f_mean * (1.0f - e_mean));
 }
