@@ -15,8 +15,8 @@
 //  - transmission gets 1 - F(v.h) of each facet, as there; F goes by the angle outside the solid, and is 1 at
 //    total reflection;
 //  - what facets reflect among themselves comes back (Kulla & Conty 2017): of the specular part, and of thin
-//    walls and solids with what they transmit, so that a white surface is white within 0.006 (0.01 for
-//    n.v < 0.03). Not of anisotropic solids, nor where the index is above 3: they darken (tests: by how much);
+//    walls and solids with what they transmit, so that a white surface is white within 0.004. Not of
+//    anisotropic solids, nor where the index is above 3: they darken (tests: by how much);
 //  - base_color multiplies transmitted light once a surface: twice through a solid, once through a thin wall.
 //
 // Solids (KHR_materials_volume), from inside: the transmitting share of the surface is a dielectric boundary
