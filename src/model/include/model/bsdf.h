@@ -41,8 +41,9 @@ inline std::optional<BsdfSample> sample(Bsdf const& bsdf, Vec3 wo, float uc, Vec
 inline Spectrum albedo(Bsdf const& bsdf, Vec3 wo) {
     return match(bsdf, [&](auto const& b) { return albedo(b, wo); });
 }
-/// The deterministic branches of its smooth parts, for Whitted's tree.
-inline DeltaBranches delta_branches(Bsdf const& bsdf, Vec3 wo, Mode mode) {
+/// The deterministic branches of its smooth parts, for Whitted's tree. (A template, lest a model without any turn into a sum.)
+template <std::same_as<Bsdf> Sum>
+DeltaBranches delta_branches(Sum const& bsdf, Vec3 wo, Mode mode) {
     return match(bsdf, [&](auto const& b) {
         if constexpr (requires { delta_branches(b, wo, mode); })
             return delta_branches(b, wo, mode);
