@@ -2,34 +2,12 @@
 #include "model/bsdf.h"
 #include "model/fresnel.h"
 
-#include "support.h"
+#include "bsdf_checks.h"
 
 #include <doctest/doctest.h>
 
 using namespace nephroid;
 using namespace nephroid::test;
-
-namespace {
-
-float const kExtremes[] = {0.0f, 0x1p-32f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
-
-/// 22 outgoing directions: both sides, the normal, and grazing ones.
-std::vector<Vec3> outgoing() {
-    std::vector<Vec3> w;
-    for (double const theta : {0.0, 0.3, 0.7, 1.1, 1.4, 1.5, 1.55, 1.565, 1.5705})
-        w.push_back(direction(theta, 1.7 * theta + 0.4));
-    for (double const phi : {2.0, 3.5}) w.push_back(direction(1.2, phi));
-    std::size_t const n = w.size();
-    for (std::size_t i = 0; i < n; ++i) w.push_back(-w[i]);
-    return w;
-}
-
-double throughput(BsdfSample const& s, int lane = 0) {
-    return static_cast<double>(s.f[lane]) * std::abs(static_cast<double>(s.wi.z)) /
-           static_cast<double>(s.pdf);
-}
-
-}  // namespace
 
 TEST_CASE("diffuse: samples by the density, from both sides and at grazing angles") {
     Bsdf const b = DiffuseBsdf{Spectrum(0.2f, 0.5f, 0.7f, 1.0f)};
