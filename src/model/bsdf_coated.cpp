@@ -103,6 +103,15 @@ struct Layers {
         at.w = s->wi;
         return s->pdf;
     }
+    /// Between two mirrors nothing but particles can be joined with a direction: light that goes `up`, once straight (`seen`) and
+    /// once by way of the base, and all turns of it between the two. pbrt-v4's f lacks all but the first, its samples do not.
+    Spectrum between_mirrors(Walker const& at, Vec3 up, Spectrum seen) const {
+        Spectrum const base_r = albedo(base, up);
+        float const phase = henyey_greenstein(coat.g, -at.w, {up.x, up.y, -up.z});
+        Spectrum const turn =
+            base_r * (fresnel_dielectric(-up.z, coat.eta) * passing(2.0f * coat.thickness, up));
+        return (seen + base_r * (phase * passing(coat.thickness + at.z, up))) / (Spectrum(1.0f) - turn);
+    }
     /// Russian roulette, as pbrt-v4 has it: from the fifth event on, where little is left.
     static bool survives(Walker& at, int depth, Numbers& r) {
         if (depth <= 3) return true;
@@ -155,8 +164,9 @@ Spectrum evaluate_layers(Layers<Base> const& l, Vec3 wo, Vec3 wi, std::uint32_t 
             if (event == Event::Scattering) {
                 float const phase = henyey_greenstein(l.coat.g, -at.w, up);
                 float const w = rough ? power_heuristic(out->pdf, phase) : 1.0f;
-                walks +=
-                    at.beta * l.coat.albedo * (phase * w * passing(thickness - at.z, up) * leaving / up.z);
+                Spectrum seen(phase * w * passing(thickness - at.z, up));
+                if (l.mirror && !rough) seen = l.between_mirrors(at, up, seen);
+                walks += at.beta * l.coat.albedo * seen * (leaving / up.z);
                 float const drawn = l.turn(at, r);
                 if (rough && at.w.z > 0.0f) leave(drawn, true);
             } else if (event == Event::Top) {
@@ -266,7 +276,8 @@ float layers_pdf(Layers<Base> const& l, Vec3 wo, Vec3 wi, std::uint32_t seed) {
         }
         sum += in->weight * found;
     }
-    float const walks = l.top.pdf_reflect(wo, wi) + sum / static_cast<float>(l.coat.samples);
+    float const walks =
+        l.top.reflectance(wo, wi) * l.top.pdf_reflect(wo, wi) + sum / static_cast<float>(l.coat.samples);
     return lerp(0.1f, walks, kUniformHemispherePdf);
 }
 

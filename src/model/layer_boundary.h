@@ -56,13 +56,16 @@ class LayerBoundary {
         return (1.0f - fresnel_dielectric(dot(wo, t.wm), eta_)) * microfacet_d(facets_, t.wm) *
                microfacet_g(facets_, wo, wi) * t.jacobian * std::abs(dot(wo, t.wm) / (wo.z * wi.z));
     }
-    /// The density with which `either` reflects into wi.
+    /// Fresnel's reflectance at the microfacet that reflects wo into wi.
+    [[nodiscard]] float reflectance(Vec3 wo, Vec3 wi) const {
+        return smooth_ ? fresnel_dielectric(wo.z, eta_) : fresnel_dielectric(dot(wo, half(wo + wi)), eta_);
+    }
+    /// The density with which `reflect` reflects wo into wi.
     [[nodiscard]] float pdf_reflect(Vec3 wo, Vec3 wi) const {
         if (smooth_) return 0.0f;
         Vec3 const wm = half(wo + wi);
         float const c = std::abs(dot(wo, wm));
-        return c > 0.0f ? fresnel_dielectric(dot(wo, wm), eta_) * microfacet_pdf(facets_, wo, wm) / (4.0f * c)
-                        : 0.0f;
+        return c > 0.0f ? microfacet_pdf(facets_, wo, wm) / (4.0f * c) : 0.0f;
     }
     /// The density with which `transmit` refracts wo into wi.
     [[nodiscard]] float pdf_transmit(Vec3 wo, Vec3 wi) const {
