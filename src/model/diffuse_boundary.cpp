@@ -1,6 +1,7 @@
 // What a dielectric boundary does to light as a whole.
 #include "diffuse_boundary.h"
 
+#include "coat_table.h"
 #include "model/fresnel.h"
 #include "model/microfacet_albedo.h"
 
@@ -42,20 +43,21 @@ class Tables {
     }
     [[nodiscard]] DiffuseBoundary operator()(Microfacets const& m, float eta, float depth) const {
         Place const e = place(((eta - 1.0f) / (eta + 1.0f) - kLeast) / kStep, kEtas);
-        // How much absorption takes, as if the boundary were smooth.
-        Place const d = place(std::log2(1.0f + depth * kDepthScale) * kPerOctave, kDepths);
-        auto const at_depth = [&](std::size_t i) {
-            return mix(d.t, smooth_[e.i + i][d.i], smooth_[e.i + i][d.i + 1]);
-        };
-        DiffuseBoundary const absorbed = mix(e.t, at_depth(0), at_depth(1));
-        if (m.smooth()) return absorbed;
-        DiffuseBoundary const clear = mix(e.t, smooth_[e.i][0], smooth_[e.i + 1][0]);
+        if (m.smooth()) {
+            Place const d = place(std::log2(1.0f + depth * kDepthScale) * kPerOctave, kDepths);
+            auto const at_depth = [&](std::size_t i) {
+                return mix(d.t, smooth_[e.i + i][d.i], smooth_[e.i + i][d.i + 1]);
+            };
+            return mix(e.t, at_depth(0), at_depth(1));
+        }
         auto const& table = rough_[static_cast<std::size_t>(m.kind)];
         Place const a = place(alpha_of(m) * (kAlphas - 1), kAlphas);
         DiffuseBoundary const r = mix(a.t, mix(e.t, table[a.i][e.i], table[a.i][e.i + 1]),
                                       mix(e.t, table[a.i + 1][e.i], table[a.i + 1][e.i + 1]));
-        return {clear.back > 0.0f ? r.back * absorbed.back / clear.back : r.back,
-                r.out * absorbed.out / clear.out};
+        if (depth == 0.0f) return r;
+        float const alpha = alpha_of(m);
+        return {r.back * std::exp(-depth * coat_way_back(eta, alpha, depth)),
+                r.out * std::exp(-depth * coat_way_out(eta, alpha, depth))};
     }
 
   private:
@@ -111,11 +113,15 @@ class Tables {
 }  // namespace
 
 float boundary_transmittance(Microfacets const& m, float eta, float depth, float mu) {
-    float const t = m.smooth() ? 1.0f - fresnel_dielectric(mu, eta)
-                               : dielectric_transmission_albedo(m.kind, mu, alpha_of(m), eta);
-    if (depth == 0.0f || !(t > 0.0f)) return t;
-    float const c = refracted_cosine(mu, eta);
-    return c > 0.0f ? t * std::exp(-depth / c) : 0.0f;
+    if (m.smooth()) {
+        float const c = refracted_cosine(mu, eta);
+        if (!(c > 0.0f)) return 0.0f;
+        float const t = 1.0f - fresnel_dielectric(mu, eta);
+        return depth == 0.0f ? t : t * std::exp(-depth / c);
+    }
+    float const alpha = alpha_of(m);
+    float const t = dielectric_transmission_albedo(m.kind, mu, alpha, eta);
+    return depth == 0.0f ? t : t * std::exp(-depth * coat_way_down(eta, alpha, mu, depth));
 }
 
 float boundary_reflectance(Microfacets const& m, float eta, float mu) {

@@ -6,8 +6,7 @@
 
 namespace nephroid {
 
-/// The part of light from a direction of cosine mu outside that arrives below a layer of optical depth `depth`. The way
-/// through the layer is the one that a smooth boundary refracts to, which is exact for a smooth boundary or depth = 0.
+/// The part of light from a direction of cosine mu outside that arrives below a layer of optical depth `depth`.
 float boundary_transmittance(Microfacets const& m, float eta, float depth, float mu);
 /// The part that is reflected, of light from a direction of cosine mu outside.
 float boundary_reflectance(Microfacets const& m, float eta, float mu);

@@ -1,0 +1,67 @@
+// The table behind closed forms of coats, as tools/coat_table.cpp writes it and coat_table.cpp reads it: for boundaries of Trowbridge-
+// Reitz microfacets of isotropic alpha.
+#pragma once
+
+#include "model/fresnel.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace nephroid {
+
+struct CoatTable {
+    static constexpr std::size_t kEtas = 9, kAlphas = 9, kMus = 16, kDepths = 5;
+
+    // Nodes: cosines and alphas more densely near 0; eta by the amplitude it reflects, (eta - 1) / (eta + 1); depths by factors of 4.
+    static constexpr float kEtaLo = 1.1f, kEtaHi = 2.5f, kDepthLo = 0.01f;
+    static float mu(std::size_t i) { return max(sqr(static_cast<float>(i) / (kMus - 1)), 1e-3f); }
+    static float alpha(std::size_t i) { return sqr(static_cast<float>(i) / (kAlphas - 1)); }
+    static float amplitude(float eta) { return (eta - 1.0f) / (eta + 1.0f); }
+    static float eta(std::size_t i) {
+        float const r = lerp(static_cast<float>(i) / (kEtas - 1), amplitude(kEtaLo), amplitude(kEtaHi));
+        return (1.0f + r) / (1.0f - r);
+    }
+    static float depth(std::size_t i) { return kDepthLo * std::exp2(2.0f * static_cast<float>(i)); }
+    // … and where a value lies among them, from 0 to n - 1.
+    static float mu_place(float x) { return std::sqrt(x) * (kMus - 1); }
+    static float alpha_place(float x) { return std::sqrt(x) * (kAlphas - 1); }
+    static float eta_place(float x) {
+        return (amplitude(x) - amplitude(kEtaLo)) / (amplitude(kEtaHi) - amplitude(kEtaLo)) * (kEtas - 1);
+    }
+    static float depth_place(float x) { return 0.5f * std::log2(x / kDepthLo); }
+
+    /// Mean ways through a layer of optical depth d, as -ln(transmittance) / d: of light that enters from mu; of diffuse light
+    /// from the base that is reflected back to it; and of what gets out.
+    float down[kEtas][kAlphas][kMus][kDepths];
+    float back[kEtas][kAlphas][kDepths];
+    float out[kEtas][kAlphas][kDepths];
+
+    /// A rough coat (first alpha) over a perfect mirror of microfacets (second alpha). g1 and g2 scale the lobes of light that met the
+    /// base once and twice (bsdf_coated_closed.cpp) to the right albedo; c1 and c2 are these albedos.
+    struct Lobes {
+        float g1, g2, c1, c2;
+    };
+    Lobes lobes[kEtas][kAlphas][kAlphas][kMus];
+    /// What part of the light is left from one meeting to the next, from the third on.
+    float tail[kEtas][kAlphas][kAlphas];
+};
+
+/// The two directions of a lobe as they are inside a coat, and the lobe that stands for light that met the base n times. Deviations
+/// add in squares (Belcour 2018, section 4): refraction turns a ray by 1 - 1/eta times the tilt of a microfacet, as seen from inside,
+/// and reflection by twice the tilt.
+inline Vec3 inside_coat(Vec3 w, float eta) {
+    Vec3 const in{w.x / eta, w.y / eta, 0};
+    return {in.x, in.y, safe_sqrt(1.0f - in.x * in.x - in.y * in.y)};
+}
+inline float coat_lobe_alpha(float coat, float base, float eta, int n) {
+    auto const meetings = static_cast<float>(n);
+    float const a2 = meetings * base * base + (meetings - 1.0f + 0.5f * sqr(1.0f - 1.0f / eta)) * coat * coat;
+    return clamp(std::sqrt(a2), 1e-3f, 1.0f);
+}
+/// Roughly what a coat lets through from mu: a factor of the lobes, which g1 and g2 make right.
+inline float coat_lobe_passing(float mu, float coat, float eta) {
+    return 1.0f - fresnel_dielectric((mu + coat) / (1.0f + coat), eta);
+}
+
+}  // namespace nephroid
