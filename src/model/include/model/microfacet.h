@@ -19,13 +19,24 @@ struct Microfacets {
 
 /// Density of normals: projected area one, integral D(wm) wm.z dwm = 1.
 float microfacet_d(Microfacets const& m, Vec3 wm);
-/// Smith's Lambda: the invisible area per visible one from w.
-float microfacet_lambda(Microfacets const& m, Vec3 w);
+/// |cos theta| Lambda(w), finite everywhere: |cos theta| more of it is the area that w sees (Heitz 2014).
+float microfacet_hidden(Microfacets const& m, Vec3 w);
+/// Smith's Lambda: the invisible area per visible one from w; infinite in the tangent plane.
+inline float microfacet_lambda(Microfacets const& m, Vec3 w) {
+    return w.z == 0.0f ? kInfinity : microfacet_hidden(m, w) / abs_cos_theta(w);
+}
 inline float microfacet_g1(Microfacets const& m, Vec3 w) { return 1.0f / (1.0f + microfacet_lambda(m, w)); }
 inline float microfacet_g(Microfacets const& m, Vec3 wo, Vec3 wi) {
     return 1.0f / (1.0f + microfacet_lambda(m, wo) + microfacet_lambda(m, wi));
 }
-/// Draws a normal for light from w (either side). TrowbridgeReitz and Beckmann: visible normals; Blinn: see microfacet.cpp.
+/// G / |cos_o cos_i|, as models need it; finite unless both directions lie in the tangent plane (then 0).
+inline float microfacet_g_over_cosines(Microfacets const& m, Vec3 wo, Vec3 wi) {
+    float const o = abs_cos_theta(wo), i = abs_cos_theta(wi);
+    float const below = o * i + (o * microfacet_hidden(m, wi) + i * microfacet_hidden(m, wo));
+    return below > 0.0f ? 1.0f / below : 0.0f;
+}
+/// Draws a normal that faces light from w (either side). TrowbridgeReitz and Beckmann: visible normals (Heitz 2018; Heitz &
+/// d'Eon 2014); Blinn: see microfacet_blinn.cpp.
 Vec3 sample_microfacet(Microfacets const& m, Vec3 w, Vec2 u);
 /// The density by solid angle with which sample_microfacet(w) gives wm.
 float microfacet_pdf(Microfacets const& m, Vec3 w, Vec3 wm);
