@@ -4,8 +4,8 @@
 // Lobes may be ten thousand times narrower than the sphere is wide. Therefore the cells of chi square are made by the sampler
 // itself: a pilot run is halved at its medians, in turn by height and by azimuth, until each cell holds about as many pilot
 // samples as every other. The run that is tested is another one, so that its counts are independent of the cells. The density
-// is integrated over each cell by Gauss' rule, 3 x 3, halved where its halves do not agree with the whole or its corners are far
-// above its inside (a tail begins); cells that hold a mirrored or refracted direction are always halved down to a lobe of alpha
+// is integrated over each cell by Gauss' rule, 3 x 3, halved where its halves do not agree with the whole, where more than a few
+// pilot samples are, and where its corners are far above its inside (a tail begins); cells that hold a mirrored or refracted direction are always halved down to a lobe of alpha
 // 0.001, lest a peak of the density without any samples be overlooked. The same cells integrate f |cos|.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <span>
 #include <string>
 
 namespace nephroid::test {
@@ -69,9 +70,12 @@ class AdaptiveCells {
     }
     /// Integral of f over each cell, by solid angle. `tolerance`: absolute, of each part that is not halved any more.
     template <class F>
-    [[nodiscard]] std::vector<double> integrate(F const& f, double tolerance = 2e-7) const {
+    [[nodiscard]] std::vector<double> integrate(F const& f, double tolerance) const {
         std::vector<double> r;
-        for (Box const& c : cells_) r.push_back(refine(f, c, rule(f, c), tolerance, 0));
+        for (Cell const& c : cells_) {
+            std::vector<Point> points = c.pilot;
+            r.push_back(refine(f, c.box, rule(f, c.box), tolerance, 0, points));
+        }
         return r;
     }
 
@@ -79,6 +83,10 @@ class AdaptiveCells {
     using Point = std::array<double, 2>;
     struct Box {
         Point lo, hi;
+    };
+    struct Cell {
+        Box box;
+        std::vector<Point> pilot;
     };
     struct Node {
         int axis = -1;  // -1: a cell, whose number is `below`
@@ -115,7 +123,7 @@ class AdaptiveCells {
             }
             if (p.size() < 2 * least_ || depth > 40 || split < 0) {
                 nodes_[index(n)].below = static_cast<int>(cells_.size());
-                cells_.push_back(box);
+                cells_.push_back({box, std::move(p)});
                 return n;
             }
         }
@@ -160,25 +168,42 @@ class AdaptiveCells {
         return e;
     }
     template <class F>
-    double refine(F const& f, Box const& c, Estimate const& whole, double tolerance, int depth) const {
+    double refine(F const& f, Box const& c, Estimate const& whole, double tolerance, int depth,
+                  std::span<Point> points) const {
         bool peak = false;
         double const area = (c.hi[0] - c.lo[0]) * (c.hi[1] - c.lo[1]);
         for (Point const& p : peaks_)
             peak |= area > 1e-7 && p[0] >= c.lo[0] && p[0] <= c.hi[0] && p[1] >= c.lo[1] && p[1] <= c.hi[1];
-        int const axis = peak ? depth % 2 : whole.axis;
+        bool const full = points.size() > 6;
+        Point const middle{(c.lo[0] + c.hi[0]) / 2, (c.lo[1] + c.hi[1]) / 2};
+        std::size_t axis = index(peak ? depth % 2 : whole.axis);
+        if (full && !peak) {
+            // Across the axis along which the samples are less even.
+            std::ptrdiff_t off[2];
+            for (std::size_t k = 0; k < 2; ++k)
+                off[k] = std::abs(2 * std::count_if(points.begin(), points.end(),
+                                                    [&](Point const& p) { return p[k] < middle[k]; }) -
+                                  static_cast<std::ptrdiff_t>(points.size()));
+            if (off[0] != off[1]) axis = off[1] > off[0];
+        }
         Box a = c, b = c;
-        a.hi[index(axis)] = b.lo[index(axis)] = (c.lo[index(axis)] + c.hi[index(axis)]) / 2;
+        a.hi[axis] = b.lo[axis] = middle[axis];
         Estimate const low = rule(f, a), high = rule(f, b);
         double const sum = low.inside + high.inside;
         bool const tail = whole.corners > 4 * whole.inside + tolerance;
-        if (depth >= 40 || (!peak && !tail && std::abs(sum - whole.inside) <= tolerance)) return sum;
-        return refine(f, a, low, tolerance, depth + 1) + refine(f, b, high, tolerance, depth + 1);
+        if (depth >= 40 || (!full && !peak && !tail && std::abs(sum - whole.inside) <= tolerance)) return sum;
+        auto const cut =
+            static_cast<std::size_t>(std::partition(points.begin(), points.end(),
+                                                    [&](Point const& p) { return p[axis] < middle[axis]; }) -
+                                     points.begin());
+        return refine(f, a, low, tolerance, depth + 1, points.first(cut)) +
+               refine(f, b, high, tolerance, depth + 1, points.subspan(cut));
     }
 
     std::size_t least_ = 1;
     std::vector<Point> peaks_;
     std::vector<Node> nodes_;
-    std::vector<Box> cells_;
+    std::vector<Cell> cells_;
 };
 
 // --- samples --------------------------------------------------------------------------------------------------------------
@@ -219,7 +244,7 @@ Drawn chi_square_of(Draw const& draw, Density const& density, std::vector<Vec3> 
     for (std::size_t i = 0; i < 64 * cells; ++i)
         if (auto const w = draw(pilot_numbers)) pilot.push_back(*w);
     AdaptiveCells const tree(pilot, peaks, cells);
-    std::vector<double> o(tree.size() + 1), e = tree.integrate(density);
+    std::vector<double> o(tree.size() + 1), e = tree.integrate(density, 2e-4 / static_cast<double>(cells));
     for (int i = 0; i < n; ++i) {
         auto const w = draw(r);
         ++(w ? o[tree.cell(*w)] : o.back());
@@ -429,10 +454,12 @@ inline Albedo directional_albedo(Bsdf const& b, Vec3 wo, BsdfChecks const& c, in
     }
     a.delta = deltas[0] + deltas[1];
     AdaptiveCells const cells(pilot, peaks_of(wo, c.eta), c.cells);
-    for (double const x : cells.integrate([&](Vec3 wi) {
-             return static_cast<double>(evaluate(b, wo, wi, Mode::Importance)[c.lane]) *
-                    std::abs(static_cast<double>(wi.z));
-         }))
+    for (double const x : cells.integrate(
+             [&](Vec3 wi) {
+                 return static_cast<double>(evaluate(b, wo, wi, Mode::Importance)[c.lane]) *
+                        std::abs(static_cast<double>(wi.z));
+             },
+             1e-6))
         a.quadrature += x;
     return a;
 }

@@ -32,7 +32,7 @@ double integral(Microfacets const& m, Vec3 w, F const& f) {
     std::vector<Vec3> pilot;
     for (int i = 0; i < 20'000; ++i) pilot.push_back(sample_microfacet(m, w, random_square(r)));
     double sum = 0;
-    for (double const x : AdaptiveCells(pilot, {{0, 0, 1}}, 300).integrate(f, 1e-8)) sum += x;
+    for (double const x : AdaptiveCells(pilot, {{0, 0, 1}}, 300).integrate(f, 3e-8)) sum += x;
     return sum;
 }
 
