@@ -19,6 +19,7 @@ using namespace nephroid;
 using Vector = std::vector<double>;
 
 constexpr std::size_t kInner = 64;  // cosines inside, evenly spaced
+constexpr std::size_t kOrders = 5;  // meetings with the base, as many as pbrt's walks have by default
 
 /// Points of the plane, as even as can be (Roberts' R2 sequence).
 Vec2 point(int i) {
@@ -56,34 +57,41 @@ Vector operator*(Matrix const& m, Vector const& v) {
 }
 float inner_mu(std::size_t i) { return std::max(static_cast<float>(i) / (kInner - 1), 1e-3f); }
 
-/// A mirror of microfacets turns w; what shadowing leaves, or 0.
-double mirror(float alpha, Vec3 w, Vec2 u, Vec3& wi) {
+/// A mirror of microfacets turns w: what shadowing leaves, or 0.
+struct Turn {
+    Vec3 wi;
+    double weight = 0;
+    double slant = 0;  // Schlick's (1 - cos)^5 at the microfacet
+};
+Turn mirror(float alpha, Vec3 w, Vec2 u) {
     Microfacets const m = facets(alpha);
-    if (m.smooth()) {
-        wi = {-w.x, -w.y, w.z};
-        return 1;
-    }
-    Vec3 const wm = sample_microfacet(m, w, u);
-    wi = wm * (2.0f * dot(w, wm)) - w;
-    if (!(wi.z > 0.0f)) return 0;
-    return static_cast<double>(microfacet_g(m, w, wi) / microfacet_g1(m, w));
+    Vec3 const wm = m.smooth() ? Vec3{0, 0, 1} : sample_microfacet(m, w, u);
+    Turn t;
+    t.wi = wm * (2.0f * dot(w, wm)) - w;
+    if (!(t.wi.z > 0.0f)) return t;
+    t.weight = m.smooth() ? 1 : static_cast<double>(microfacet_g(m, w, t.wi) / microfacet_g1(m, w));
+    t.slant = std::pow(1 - std::min(1.0, static_cast<double>(dot(w, wm))), 5);
+    return t;
 }
 
-/// The base's reflection between inner cosines.
-Matrix base_matrix(float alpha) {
-    constexpr int n = 1024;
-    Matrix m;
-    for (std::size_t i = 0; i < kInner; ++i) {
-        Row row{Vector(kInner)};
-        for (int s = 0; s < n; ++s) {
-            Vec3 wi;
-            double const w = mirror(alpha, upwards(inner_mu(i)), point(s), wi);
-            if (w > 0) row.add_inner(wi.z, w / n);
+/// The base's reflection between inner cosines, and the same weighted by the slant.
+struct Base {
+    Matrix turn, slant;
+    explicit Base(float alpha) {
+        constexpr int n = 1024;
+        for (std::size_t i = 0; i < kInner; ++i) {
+            Row row{Vector(kInner)}, slanted{Vector(kInner)};
+            for (int s = 0; s < n; ++s) {
+                Turn const t = mirror(alpha, upwards(inner_mu(i)), point(s));
+                if (!(t.weight > 0)) continue;
+                row.add_inner(t.wi.z, t.weight / n);
+                slanted.add_inner(t.wi.z, t.weight * t.slant / n);
+            }
+            turn.push_back(row);
+            slant.push_back(slanted);
         }
-        m.push_back(row);
     }
-    return m;
-}
+};
 
 /// What the coat's boundary does.
 struct Boundary {
@@ -115,58 +123,107 @@ struct Boundary {
     }
 };
 
-/// The lobe of n meetings without its scale, from outer node i to outer cosines.
-Row lobe_row(std::size_t i, float coat, float base, float eta, int n) {
-    constexpr int samples = 1024;
-    Row row{Vector(CoatTable::kMus)};
-    float const alpha = coat_lobe_alpha(coat, base, eta, n);
-    Vec3 const wo = inside_coat(upwards(CoatTable::mu(i)), eta);
-    double const from = static_cast<double>(coat_lobe_passing(CoatTable::mu(i), coat, eta));
-    for (int s = 0; s < samples; ++s) {
-        Vec3 wi;
-        double const w = mirror(alpha, wo, point(s), wi);
-        float const sin2 = (1.0f - wi.z * wi.z) * eta * eta;
-        if (!(w > 0) || sin2 >= 1.0f) continue;
-        float const mu = std::sqrt(1.0f - sin2);
-        row.add_outer(mu, w * from * static_cast<double>(coat_lobe_passing(mu, coat, eta)) / samples);
+/// The lobe of n meetings without its scale, from outer nodes to outer cosines, and the same weighted by the slant.
+struct Lobe {
+    Matrix turn, slant;
+    Lobe(float coat, float base, float eta, int n) {
+        constexpr int samples = 1024;
+        float const alpha = coat_lobe_alpha(coat, base, eta, n);
+        for (std::size_t i = 0; i < CoatTable::kMus; ++i) {
+            Row row{Vector(CoatTable::kMus)}, slanted{Vector(CoatTable::kMus)};
+            Vec3 const wo = inside_coat(upwards(CoatTable::mu(i)), eta);
+            double const from = static_cast<double>(coat_lobe_passing(CoatTable::mu(i), coat, eta));
+            for (int s = 0; s < samples; ++s) {
+                Turn const t = mirror(alpha, wo, point(s));
+                float const sin2 = (1.0f - t.wi.z * t.wi.z) * eta * eta;
+                if (!(t.weight > 0) || sin2 >= 1.0f) continue;
+                float const mu = std::sqrt(1.0f - sin2);
+                double const w =
+                    t.weight * from * static_cast<double>(coat_lobe_passing(mu, coat, eta)) / samples;
+                row.add_outer(mu, w);
+                slanted.add_outer(mu, w * t.slant);
+            }
+            turn.push_back(row);
+            slant.push_back(slanted);
+        }
     }
-    return row;
-}
+};
 
 /// g with g(mu) integral L(mu, mu') g(mu') = albedo(mu): a scale that keeps the lobe reciprocal (Sinkhorn's iteration, damped).
-Vector scales(float coat, float base, float eta, int n, Vector const& albedo) {
-    Matrix lobe;
-    for (std::size_t i = 0; i < CoatTable::kMus; ++i) lobe.push_back(lobe_row(i, coat, base, eta, n));
+Vector scales(Lobe const& lobe, Vector const& albedo) {
     Vector g(CoatTable::kMus, 1.0);
     for (int k = 0; k < 100; ++k) {
-        Vector const reached = lobe * g;
+        Vector const reached = lobe.turn * g;
         for (std::size_t i = 0; i < g.size(); ++i)
             g[i] = std::sqrt(g[i] * albedo[i] / std::max(reached[i], 1e-12));
     }
     return g;
 }
 
-void fill_lobes(CoatTable& t, std::vector<Matrix> const& bases, std::size_t e, std::size_t a,
+/// What light from each outer node has left after 1, 2, … meetings with the base, and its slant at the first and at the first
+/// two.
+struct Orders {
+    std::array<Vector, kOrders> albedo;
+    std::array<Vector, 2> slant;
+    Orders(Boundary const& coat, Base const& base, float depth) {
+        auto const layer = [&](Vector v) {
+            for (std::size_t i = 0; i < v.size(); ++i)
+                v[i] *= std::exp(-static_cast<double>(depth) / static_cast<double>(inner_mu(i)));
+            return v;
+        };
+        // What an upward cosine above the base will bring out after so many more meetings.
+        Vector up = layer(coat.escape);
+        auto const again = [&](Vector const& v) { return layer(coat.back * layer(v)); };
+        for (std::size_t n = 0; n < kOrders; ++n) {
+            Vector const down = base.turn * up;
+            albedo[n] = coat.in * layer(down);
+            if (n == 0) slant[0] = coat.in * layer(base.slant * up);
+            if (n == 1) {
+                Vector const first = coat.in * layer(base.slant * up);
+                Vector const second = coat.in * layer(base.turn * again(base.slant * layer(coat.escape)));
+                slant[1] = first;
+                for (std::size_t i = 0; i < first.size(); ++i) slant[1][i] = (first[i] + second[i]) / 2;
+            }
+            up = again(down);
+        }
+    }
+};
+
+/// The r of a geometric series that has the sum of all meetings from the second on.
+double tail(Orders const& o, std::size_t i) {
+    double sum = 0;
+    for (std::size_t n = 1; n < kOrders; ++n) sum += o.albedo[n][i] / o.albedo[1][i];
+    double lo = 0, hi = 1;
+    for (int k = 0; k < 40; ++k) {
+        double const r = (lo + hi) / 2;
+        double series = 0;
+        for (std::size_t n = 1; n < kOrders; ++n) series = 1 + r * series;
+        (series < sum ? lo : hi) = r;
+    }
+    return (lo + hi) / 2;
+}
+
+void fill_lobes(CoatTable& t, std::vector<Base> const& bases, std::size_t e, std::size_t a,
                 Boundary const& coat) {
     float const eta = CoatTable::eta(e), alpha = CoatTable::alpha(a);
     for (std::size_t b = 0; b < CoatTable::kAlphas; ++b) {
-        float const base = CoatTable::alpha(b);
-        Vector v = bases[b] * coat.escape;
-        std::array<Vector, 3> c;
-        for (Vector& order : c) {
-            order = coat.in * v;
-            v = bases[b] * (coat.back * v);
+        Orders const clear(coat, bases[b], 0), dim(coat, bases[b], CoatTable::kDepthLo);
+        for (std::size_t i = 0; i < CoatTable::kMus; ++i)
+            t.lobes[e][a][b][i].tail = static_cast<float>(tail(clear, i));
+        for (std::size_t n = 0; n < 2; ++n) {
+            Lobe const lobe(alpha, CoatTable::alpha(b), eta, static_cast<int>(n) + 1);
+            Vector const g = scales(lobe, clear.albedo[n]), slanted = lobe.slant * g;
+            for (std::size_t i = 0; i < CoatTable::kMus; ++i) {
+                CoatTable::Lobes& l = t.lobes[e][a][b][i];
+                double const all = clear.albedo[n][i], slant = clear.slant[n][i] / all;
+                l.g[n] = static_cast<float>(g[i]);
+                l.albedo[n] = static_cast<float>(all);
+                l.way[n] = static_cast<float>(std::log(all / dim.albedo[n][i]) /
+                                              static_cast<double>(CoatTable::kDepthLo));
+                l.slant[n] = static_cast<float>(slant);
+                l.excess[n] = static_cast<float>(slant - slanted[i] * g[i] / all);
+            }
         }
-        Vector const g1 = scales(alpha, base, eta, 1, c[0]), g2 = scales(alpha, base, eta, 2, c[1]);
-        double second = 0, third = 0;
-        for (std::size_t i = 0; i < CoatTable::kMus; ++i) {
-            t.lobes[e][a][b][i] = {static_cast<float>(g1[i]), static_cast<float>(g2[i]),
-                                   static_cast<float>(c[0][i]), static_cast<float>(c[1][i])};
-            // Nodes are at squares, so that projected solid angle goes with i^3.
-            double const weight = std::pow(static_cast<double>(i), 3);
-            second += weight * c[1][i], third += weight * c[2][i];
-        }
-        t.tail[e][a][b] = static_cast<float>(second > 0 ? third / second : 0);
     }
 }
 
@@ -220,8 +277,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     auto const table = std::make_unique<CoatTable>();
-    std::vector<Matrix> bases;
-    for (std::size_t b = 0; b < CoatTable::kAlphas; ++b) bases.push_back(base_matrix(CoatTable::alpha(b)));
+    std::vector<Base> bases;
+    for (std::size_t b = 0; b < CoatTable::kAlphas; ++b) bases.emplace_back(CoatTable::alpha(b));
     for (std::size_t e = 0; e < CoatTable::kEtas; ++e)
         for (std::size_t a = 0; a < CoatTable::kAlphas; ++a) {
             fill_ways(*table, e, a);

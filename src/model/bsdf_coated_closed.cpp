@@ -40,10 +40,10 @@ struct Coated {
         };
         return {.ax = along(&Microfacets::ax), .ay = along(&Microfacets::ay)};
     }
+    [[nodiscard]] CoatTable::Lobes table(float mu) const { return coat_lobes(b.coat_eta, coat, base, mu); }
     /// F^2 (1 + rF + …), as many terms as there are meetings.
-    [[nodiscard]] Spectrum later(Spectrum f) const {
-        // From one meeting to the next light goes through the layer twice, slanting.
-        Spectrum const turn = f * (coat_tail(b.coat_eta, coat, base) * std::exp(-2.5f * b.depth));
+    [[nodiscard]] Spectrum later(Spectrum f, CoatTable::Lobes const& t) const {
+        Spectrum const turn = f * (t.tail * std::exp(-b.depth * (t.way[1] - t.way[0])));
         Spectrum sum, term = f * f;
         for (int n = 2; n <= b.bounces; ++n) {
             sum += term;
@@ -52,15 +52,20 @@ struct Coated {
         }
         return sum;
     }
-    /// What the layer lets through on the way between the base and mu outside.
-    [[nodiscard]] float layer(float mu) const {
-        if (b.depth == 0.0f) return 1.0f;
-        float const way = b.coat.smooth()
-                              ? 1.0f / inside_coat({safe_sqrt(1.0f - mu * mu), 0, mu}, b.coat_eta).z
-                              : coat_way_down(b.coat_eta, coat, mu, b.depth);
-        return std::exp(-b.depth * way);
-    }
 };
+/// The table for a pair of directions: means, and products of scales.
+CoatTable::Lobes pair(CoatTable::Lobes const& a, CoatTable::Lobes const& b) {
+    CoatTable::Lobes p = a;
+    for (std::size_t n = 0; n < 2; ++n) {
+        p.g[n] *= b.g[n];
+        p.way[n] = 0.5f * (a.way[n] + b.way[n]);
+        p.excess[n] = 0.5f * (a.excess[n] + b.excess[n]);
+    }
+    p.tail = 0.5f * (a.tail + b.tail);
+    return p;
+}
+/// Fresnel's factor where Schlick's weight is higher by `excess`.
+Spectrum slanting(Spectrum f, float excess) { return clamp(f + (Spectrum(1.0f) - f) * excess, 0.0f, 1.0f); }
 
 /// Of both smooth: one direction, all turns summed.
 Spectrum mirror(ClosedCoatedConductorBsdf const& b, float mu) {
@@ -82,13 +87,11 @@ struct Lobes {
 };
 Lobes lobes(Coated const& c, float mu) {
     Lobes l;
-    CoatTable::Lobes const t = coat_lobes(c.b.coat_eta, c.coat, c.base, mu);
-    float const inner = inside_coat({safe_sqrt(1.0f - mu * mu), 0, mu}, c.b.coat_eta).z;
-    Spectrum const f = fresnel_conductor(inner, c.b.eta, c.b.k);
-    // The way out is about as long as the way in.
-    float const layer = sqr(c.layer(mu));
-    l.albedo = {Spectrum(boundary_reflectance(c.b.coat, c.b.coat_eta, mu)), f * (t.c1 * layer),
-                c.later(f) * (t.c2 * layer * std::exp(-2.5f * c.b.depth))};
+    CoatTable::Lobes const t = c.table(mu);
+    Spectrum const f = fresnel_conductor(1.0f, c.b.eta, c.b.k);
+    l.albedo = {Spectrum(boundary_reflectance(c.b.coat, c.b.coat_eta, mu)),
+                slanting(f, t.slant[0]) * (t.albedo[0] * std::exp(-c.b.depth * t.way[0])),
+                c.later(slanting(f, t.slant[1]), t) * (t.albedo[1] * std::exp(-c.b.depth * t.way[1]))};
     float const sum = l.albedo[0].average() + l.albedo[1].average() + l.albedo[2].average();
     if (sum > 0.0f)
         for (std::size_t i = 0; i < 3; ++i) l.probability[i] = l.albedo[i].average() / sum;
@@ -118,17 +121,16 @@ Spectrum evaluate(ClosedCoatedConductorBsdf const& b, Vec3 wo, Vec3 wi, Mode) {
     if (!(in.z > 0.0f) || !(out.z > 0.0f)) return f;
     Vec3 const wm = normalize(in + out);
     Spectrum const metal = fresnel_conductor(dot(in, wm), b.eta, b.k);
-    CoatTable::Lobes const a = coat_lobes(b.coat_eta, c.coat, c.base, wo.z);
-    CoatTable::Lobes const e = coat_lobes(b.coat_eta, c.coat, c.base, wi.z);
+    CoatTable::Lobes const t = pair(c.table(wo.z), c.table(wi.z));
     float const common = coat_lobe_passing(wo.z, c.coat, b.coat_eta) *
-                         coat_lobe_passing(wi.z, c.coat, b.coat_eta) * c.layer(wo.z) * c.layer(wi.z) /
+                         coat_lobe_passing(wi.z, c.coat, b.coat_eta) /
                          (4.0f * sqr(b.coat_eta) * in.z * out.z);
-    auto const shape = [&](int n) {
-        Microfacets const m = c.lobe(n);
-        return common * microfacet_d(m, wm) * microfacet_g(m, in, out);
+    auto const shape = [&](std::size_t n) {
+        Microfacets const m = c.lobe(static_cast<int>(n) + 1);
+        return common * t.g[n] * std::exp(-b.depth * t.way[n]) * microfacet_d(m, wm) *
+               microfacet_g(m, in, out);
     };
-    return f + metal * (shape(1) * a.g1 * e.g1) +
-           c.later(metal) * (shape(2) * a.g2 * e.g2 * std::exp(-2.5f * b.depth));
+    return f + slanting(metal, t.excess[0]) * shape(0) + c.later(slanting(metal, t.excess[1]), t) * shape(1);
 }
 
 float pdf(ClosedCoatedConductorBsdf const& b, Vec3 wo, Vec3 wi, HemisphereSampling) {

@@ -37,14 +37,19 @@ struct CoatTable {
     float back[kEtas][kAlphas][kDepths];
     float out[kEtas][kAlphas][kDepths];
 
-    /// A rough coat (first alpha) over a perfect mirror of microfacets (second alpha). g1 and g2 scale the lobes of light that met the
-    /// base once and twice (bsdf_coated_closed.cpp) to the right albedo; c1 and c2 are these albedos.
+    /// A rough coat (first alpha) over a perfect mirror of microfacets (second alpha), for light from mu that met the base once
+    /// ([0]) and twice ([1]).
     struct Lobes {
-        float g1, g2, c1, c2;
+        float g
+            [2];  // scales the lobe (bsdf_coated_closed.cpp) to the right albedo, together with that of the other direction
+        float albedo[2];
+        float way[2];     // mean way through the coat, as above, at the least depth
+        float slant[2];   // mean (1 - cos)^5 at the base's microfacets, Schlick's weight …
+        float excess[2];  // … and how much more that is than in the lobe
+        float tail;       // what part of the light is left from one meeting to the next, from the second on
+        float unused;
     };
     Lobes lobes[kEtas][kAlphas][kAlphas][kMus];
-    /// What part of the light is left from one meeting to the next, from the third on.
-    float tail[kEtas][kAlphas][kAlphas];
 };
 
 /// The two directions of a lobe as they are inside a coat, and the lobe that stands for light that met the base n times. Deviations

@@ -1,5 +1,7 @@
 #include "coat_table.h"
 
+#include <bit>
+
 // Linked in by the assembler (cmake/coat.cmake).
 extern "C" nephroid::CoatTable const nephroid_coat_table;
 
@@ -44,11 +46,13 @@ float coat_way_out(float eta, float alpha, float depth) {
 }
 
 CoatTable::Lobes coat_lobes(float eta, float coat, float base, float mu) {
+    constexpr std::size_t kNumbers = sizeof(CoatTable::Lobes) / sizeof(float);
+    using Numbers = std::array<float, kNumbers>;
     Place const e = at_eta(eta);
     Place const a = at_alpha(coat);
     Place const b = at_alpha(base);
     Place const m = at_mu(mu);
-    CoatTable::Lobes sum{};
+    Numbers sum{};
     for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)
             for (std::size_t k = 0; k < 2; ++k) {
@@ -57,17 +61,11 @@ CoatTable::Lobes coat_lobes(float eta, float coat, float base, float mu) {
                 CoatTable::Lobes const* const row = nephroid_coat_table.lobes[e.i + i][a.i + j][b.i + k];
                 for (std::size_t l = 0; l < 2; ++l) {
                     float const v = w * (l ? m.t : 1.0f - m.t);
-                    CoatTable::Lobes const& n = row[m.i + l];
-                    sum.g1 += v * n.g1;
-                    sum.g2 += v * n.g2;
-                    sum.c1 += v * n.c1;
-                    sum.c2 += v * n.c2;
+                    auto const n = std::bit_cast<Numbers>(row[m.i + l]);
+                    for (std::size_t x = 0; x < kNumbers; ++x) sum[x] += v * n[x];
                 }
             }
-    return sum;
-}
-float coat_tail(float eta, float coat, float base) {
-    return between(nephroid_coat_table.tail, at_eta(eta), at_alpha(coat), at_alpha(base));
+    return std::bit_cast<CoatTable::Lobes>(sum);
 }
 
 }  // namespace nephroid

@@ -17,6 +17,5 @@ float coat_way_out(float eta, float alpha, float depth);
 
 /// The lobes of a coat over a perfect mirror, for light from mu.
 CoatTable::Lobes coat_lobes(float eta, float coat, float base, float mu);
-float coat_tail(float eta, float coat, float base);
 
 }  // namespace nephroid
