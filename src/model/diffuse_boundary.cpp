@@ -33,7 +33,7 @@ class Tables {
     Tables() {
         for (std::size_t e = 0; e < kEtas; ++e) {
             float const eta = node_eta(e);
-            for (std::size_t d = 0; d < kDepths; ++d) smooth_[e][d] = smooth(eta, node_depth(d));
+            fill_smooth(eta, smooth_[e]);
             for (std::size_t kind = 0; kind < 3; ++kind)
                 for (std::size_t a = 0; a < kAlphas; ++a)
                     rough_[kind][a][e] = a == 0 ? smooth_[e][0]
@@ -62,10 +62,10 @@ class Tables {
 
   private:
     // In (eta - 1) / (eta + 1), the amplitude reflected at normal incidence: eta from 0.38 to 3.
-    static constexpr std::size_t kEtas = 65, kAlphas = 17, kDepths = 25;
+    static constexpr std::size_t kEtas = 65, kAlphas = 17, kDepths = 73;
     static constexpr float kLeast = -0.45f, kStep = 0.95f / (kEtas - 1);
-    // Depths 0, 0.02 (2^(k/2) - 1): up to 80.
-    static constexpr float kDepthScale = 50.0f, kPerOctave = 2.0f;
+    // Depths 0, 0.02 (2^(k/6) - 1): up to 80.
+    static constexpr float kDepthScale = 50.0f, kPerOctave = 6.0f;
 
     static float node_eta(std::size_t i) {
         float const r = kLeast + kStep * static_cast<float>(i);
@@ -78,22 +78,23 @@ class Tables {
         return {lerp(t, a.back, b.back), lerp(t, a.out, b.out)};
     }
     /// By the midpoint rule in two parts that meet at the critical angle, where R has a root's singularity.
-    static DiffuseBoundary smooth(float eta, float depth) {
+    static void fill_smooth(float eta, std::array<DiffuseBoundary, kDepths>& row) {
         constexpr int n = 64;
         float const critical = safe_sqrt(1.0f - 1.0f / (eta * eta));
-        DiffuseBoundary sum;
+        row.fill({});
         auto const add = [&](float mu, float dmu) {
             float const r = fresnel_dielectric(mu, 1.0f / eta);
-            float const way = std::exp(-depth / mu);
-            sum.back += 2.0f * r * way * way * mu * dmu;
-            sum.out += 2.0f * (1.0f - r) * way * mu * dmu;
+            for (std::size_t d = 0; d < kDepths; ++d) {
+                float const way = std::exp(-node_depth(d) / mu);
+                row[d].back += 2.0f * r * way * way * mu * dmu;
+                row[d].out += 2.0f * (1.0f - r) * way * mu * dmu;
+            }
         };
         for (int i = 0; i < n; ++i) {
             float const u = (static_cast<float>(i) + 0.5f) / n;
             if (critical > 0.0f) add(critical * u, critical / n);
             add(critical + (1.0f - critical) * u * u, (1.0f - critical) * 2.0f * u / n);
         }
-        return sum;
     }
     static DiffuseBoundary rough(Distribution kind, float alpha, float eta) {
         constexpr int n = 32;
