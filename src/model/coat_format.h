@@ -11,7 +11,7 @@
 namespace nephroid {
 
 struct CoatTable {
-    static constexpr std::size_t kEtas = 9, kAlphas = 9, kMus = 16, kDepths = 5;
+    static constexpr std::size_t kEtas = 7, kAlphas = 13, kMus = 16, kDepths = 5;
 
     // Nodes: cosines and alphas more densely near 0; eta by the amplitude it reflects, (eta - 1) / (eta + 1); depths by factors of 4.
     static constexpr float kEtaLo = 1.1f, kEtaHi = 2.5f, kDepthLo = 0.01f;
@@ -52,17 +52,20 @@ struct CoatTable {
     Lobes lobes[kEtas][kAlphas][kAlphas][kMus];
 };
 
-/// The two directions of a lobe as they are inside a coat, and the lobe that stands for light that met the base n times. Deviations
-/// add in squares (Belcour 2018, section 4): refraction turns a ray by 1 - 1/eta times the tilt of a microfacet, as seen from inside,
-/// and reflection by twice the tilt.
+/// A direction outside (above) as it is inside a coat.
 inline Vec3 inside_coat(Vec3 w, float eta) {
     Vec3 const in{w.x / eta, w.y / eta, 0};
     return {in.x, in.y, safe_sqrt(1.0f - in.x * in.x - in.y * in.y)};
 }
+/// The roughness of the lobe that stands for light that met the base n times. Refraction turns a ray by 1 - 1/eta times the tilt of
+/// a microfacet, as seen from inside, and reflection by twice the tilt. Belcour 2018 adds variances, that is squares; slopes of
+/// Trowbridge-Reitz have none, their tails being too long, and the power 3/2 was fitted to walks (decision 7).
 inline float coat_lobe_alpha(float coat, float base, float eta, int n) {
     auto const meetings = static_cast<float>(n);
-    float const a2 = meetings * base * base + (meetings - 1.0f + 0.5f * sqr(1.0f - 1.0f / eta)) * coat * coat;
-    return clamp(std::sqrt(a2), 1e-3f, 1.0f);
+    auto const p = [](float x) { return x * std::sqrt(x); };
+    float const refracted = 2.0f * p(0.5f * std::abs(1.0f - 1.0f / eta) * coat);
+    float const sum = meetings * p(base) + (meetings - 1.0f) * p(coat) + refracted;
+    return clamp(std::cbrt(sum * sum), 1e-3f, 1.0f);
 }
 /// Roughly what a coat lets through from mu: a factor of the lobes, which g1 and g2 make right.
 inline float coat_lobe_passing(float mu, float coat, float eta) {
