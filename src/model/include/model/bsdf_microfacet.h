@@ -18,7 +18,7 @@ struct RoughDielectricBsdf {
     Microfacets facets;
 };
 
-inline BsdfTraits traits(RoughConductorBsdf const&) { return {}; }
+inline BsdfTraits traits(RoughConductorBsdf const& b) { return {.chooses = b.facets.multiscatter}; }
 inline BsdfTraits traits(RoughDielectricBsdf const& b) {
     return {.spreads_through = true, .chooses = true, .hero_only = b.dispersive};
 }

@@ -1,0 +1,90 @@
+// Look-ups in the tables of microfacet albedos, linear between nodes.
+#include "model/microfacet_albedo.h"
+
+#include "microfacet_albedo_format.h"
+
+#include <algorithm>
+
+extern "C" float const nephroid_microfacet_table[];
+
+namespace nephroid {
+
+namespace {
+
+namespace table = albedo_table;
+
+/// The two nodes about a position, and the second one's share.
+struct Between {
+    int low;
+    float share;
+};
+Between between(float node, int n) {
+    float const x = clamp(node, 0.0f, static_cast<float>(n - 1));
+    int const low = std::min(static_cast<int>(x), n - 2);
+    return {low, x - static_cast<float>(low)};
+}
+float between(float const* at, int step, float share) { return lerp(share, at[0], at[step]); }
+
+/// Where a dielectric stands: its first row, and the shares of the next alpha and of the next index.
+struct Place {
+    int row;
+    float alpha, index;
+};
+/// Beyond the table's indices the outermost, which no one has seen.
+float inside_table(float eta) {
+    return clamp(eta, (1.0f - table::kMost) / (1.0f + table::kMost),
+                 (1.0f + table::kMost) / (1.0f - table::kMost));
+}
+Place place(Distribution d, float alpha, float eta) {
+    using namespace table;
+    bool const inside = eta < 1.0f;
+    auto const a = between(alpha_to_node(alpha, kGlassAlphas), kGlassAlphas);
+    auto const n = between(index_to_node(inside_table(eta), inside), kIndices / 2);
+    return {(static_cast<int>(d) * kGlassAlphas + a.low) * kIndices + n.low + (inside ? 0 : kIndices / 2),
+            a.share, n.share};
+}
+
+/// `part`: 0 reflected, 1 transmitted.
+float glass(Distribution d, float mu, float alpha, float eta, int part) {
+    using namespace table;
+    auto const [row, a, n] = place(d, alpha, eta);
+    float const* t =
+        nephroid_microfacet_table + kSingle + static_cast<std::size_t>(part) * kGlass + row * kGlassMus;
+    // mu by the nodes of this index, which lie alike about the critical angle in both neighbours.
+    auto const m = between(mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta), eta < 1.0f), kGlassMus);
+    auto const of_alpha = [&](float const* p) {
+        return lerp(n, between(p + m.low, 1, m.share), between(p + kGlassMus + m.low, 1, m.share));
+    };
+    return lerp(a, of_alpha(t), of_alpha(t + kIndices * kGlassMus));
+}
+
+}  // namespace
+
+float microfacet_albedo(Distribution d, float mu, float alpha) {
+    using namespace table;
+    auto const a = between(alpha_to_node(alpha, kAlphas), kAlphas);
+    auto const m = between(std::sqrt(clamp(mu, 0.0f, 1.0f)) * (kMus - 1), kMus);
+    float const* t = nephroid_microfacet_table + (static_cast<int>(d) * kAlphas + a.low) * kMus + m.low;
+    return lerp(a.share, between(t, 1, m.share), between(t + kMus, 1, m.share));
+}
+
+float microfacet_albedo_average(Distribution d, float alpha) {
+    using namespace table;
+    auto const a = between(alpha_to_node(alpha, kAlphas), kAlphas);
+    return between(nephroid_microfacet_table + kFirstAverage + static_cast<int>(d) * kAlphas + a.low, 1,
+                   a.share);
+}
+
+float dielectric_reflection_albedo(Distribution d, float mu, float alpha, float eta) {
+    return glass(d, mu, alpha, eta, 0);
+}
+float dielectric_transmission_albedo(Distribution d, float mu, float alpha, float eta) {
+    return glass(d, mu, alpha, eta, 1);
+}
+float dielectric_albedo_average(Distribution d, float alpha, float eta) {
+    auto const [row, a, n] = place(d, alpha, eta);
+    float const* t = nephroid_microfacet_table + table::kFirstAverage + table::kSingleAverages + row;
+    return lerp(a, between(t, 1, n), between(t + table::kIndices, 1, n));
+}
+
+}  // namespace nephroid
