@@ -5,6 +5,7 @@
 //
 // The numbers of a walk are hashes of what it is for: (seed, wo, wi), and one stream for each of f, the density and the draw.
 // That f and the density do not share numbers is what keeps products of the two, as in multiple importance sampling, unbiased.
+#include "coat_table.h"
 #include "layer_boundary.h"
 #include "make_bsdf.h"
 #include "sampling/hash.h"
@@ -366,18 +367,55 @@ std::uint32_t seed_of(MaterialPoint const& p) {
         hash_keys(pack(p.at.p.x, p.at.p.y), pack(p.at.p.z, p.lambda.lambda(0)), pack(p.at.uv.x, p.at.uv.y)));
 }
 
+// --- closed forms ---------------------------------------------------------------------------------------------------------------
+/// A scattering medium is for walks alone. Otherwise the closed form is taken where its albedo was within 2% of the walks'
+/// (decision 7; tests/model/bsdf_coated_test.cpp measures it again), or where it is asked for.
+bool closed(Coat const& c, CoatLayer const& l, bool holds) {
+    if (c.model == CoatModel::Stochastic || !l.albedo.is_black()) return false;
+    return c.model == CoatModel::ClosedForm || holds;
+}
+float alpha_of(Microfacets const& m) { return max(m.ax, m.ay); }
+/// What the table of coats was made for.
+bool tabulated(Microfacets const& m) {
+    return m.smooth() || (m.kind == Distribution::TrowbridgeReitz && min(m.ax, m.ay) * 4.0f >= alpha_of(m));
+}
+bool closed_form_holds(CoatLayer const& l) {
+    if (l.facets.smooth()) return true;
+    return tabulated(l.facets) && coat_table_covers(l.eta) && l.thickness <= 0.1f;
+}
+bool closed_form_holds(CoatLayer const& l, Microfacets const& base) {
+    if (l.facets.smooth() && base.smooth()) return true;
+    float const b = base.smooth() ? 0.0f : alpha_of(base);
+    return tabulated(l.facets) && tabulated(base) && coat_table_covers(l.eta) && l.thickness <= 0.02f &&
+           (l.facets.smooth() ? b >= 0.05f : alpha_of(l.facets) <= 0.3f && b >= 0.1f);
+}
+/// How often light may meet the base among that many events.
+std::uint8_t meetings(CoatLayer const& l) { return static_cast<std::uint8_t>((l.max_depth + 1) / 2); }
+
 }  // namespace
 
 void make(CoatedDiffuseMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
-    bsdf.emplace<CoatedDiffuseBsdf>(CoatedDiffuseBsdf{
-        layer(m.coat, p), clamp(p.spectrum(m.reflectance, Spectrum(0.5f)), 0.0f, 1.0f), seed_of(p)});
+    CoatLayer const coat = layer(m.coat, p);
+    Spectrum const reflectance = clamp(p.spectrum(m.reflectance, Spectrum(0.5f)), 0.0f, 1.0f);
+    if (closed(m.coat, coat, closed_form_holds(coat)))
+        bsdf.emplace<PlasticBsdf>(PlasticBsdf{reflectance, Spectrum(1.0f), coat.eta, coat.facets, true,
+                                              coat.dispersive, meetings(coat), coat.thickness});
+    else
+        bsdf.emplace<CoatedDiffuseBsdf>(CoatedDiffuseBsdf{coat, reflectance, seed_of(p)});
 }
 
 void make(CoatedConductorMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
     auto const [eta, k] = complex_index(m.conductor, p);
     CoatLayer const coat = layer(m.coat, p);
-    bsdf.emplace<CoatedConductorBsdf>(
-        CoatedConductorBsdf{coat, eta / coat.eta, k / coat.eta, p.facets(m.conductor.roughness), seed_of(p)});
+    Microfacets const base = p.facets(m.conductor.roughness);
+    Spectrum const inner_eta = eta / coat.eta;
+    Spectrum const inner_k = k / coat.eta;
+    if (closed(m.coat, coat, closed_form_holds(coat, base)))
+        bsdf.emplace<ClosedCoatedConductorBsdf>(ClosedCoatedConductorBsdf{inner_eta, inner_k, coat.facets,
+                                                                          base, coat.eta, coat.thickness,
+                                                                          meetings(coat), coat.dispersive});
+    else
+        bsdf.emplace<CoatedConductorBsdf>(CoatedConductorBsdf{coat, inner_eta, inner_k, base, seed_of(p)});
 }
 
 }  // namespace nephroid

@@ -5,11 +5,8 @@
 
 namespace nephroid {
 
-/// The indices and depths that the table covers.
-inline bool coat_table_covers(float eta, float depth) {
-    return eta >= CoatTable::kEtaLo && eta <= CoatTable::kEtaHi &&
-           depth <= CoatTable::depth(CoatTable::kDepths - 1);
-}
+/// The indices that the table covers.
+inline bool coat_table_covers(float eta) { return eta >= CoatTable::kEtaLo && eta <= CoatTable::kEtaHi; }
 /// Mean ways through a layer of optical depth `depth` under a rough boundary.
 float coat_way_down(float eta, float alpha, float mu, float depth);
 float coat_way_back(float eta, float alpha, float depth);
