@@ -1,55 +1,18 @@
 // The tables of microfacet albedos against quadrature of the models, at places between their nodes.
 #include "model/microfacet_albedo.h"
 
-#include "bsdf_checks.h"
+#include "microfacet_support.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
 
-struct Named {
-    std::string name;
-    Distribution kind;
-};
-Named const kDistributions[] = {{"trowbridge-reitz", Distribution::TrowbridgeReitz},
-                                {"beckmann", Distribution::Beckmann},
-                                {"blinn", Distribution::Blinn}};
 float const kAlphas[] = {0.001f, 0.004f, 0.013f, 0.05f, 0.12f, 0.28f, 0.55f, 0.8f, 1.0f};
 float const kCosines[] = {1e-3f, 0.013f, 0.06f, 0.17f, 0.34f, 0.52f, 0.71f, 0.745f, 0.78f, 0.93f, 1.0f};
 
-/// Reflected and transmitted power by a lattice of the samplers' own numbers; eta = 0: a perfect mirror of each facet.
-struct Parts {
-    double reflected = 0, transmitted = 0;
-};
 Parts lattice(Microfacets const& m, float mu, float eta) {
-    Vec3 const wo{std::sqrt(1 - mu * mu), 0, mu};
-    Bsdf const metal = RoughConductorBsdf{Spectrum(0), Spectrum(0), m};  // F = 1, the limit
-    Bsdf const outside = RoughDielectricBsdf{eta, false, m};
-    int const n = 987, step = 610;
-    Parts p;
-    for (int i = 0; i < n; ++i) {
-        Vec2 const u{(static_cast<float>(i) + 0.5f) / static_cast<float>(n),
-                     (static_cast<float>(i * step % n) + 0.5f) / static_cast<float>(n)};
-        auto const get = [&](Bsdf const& b, float uc, bool through, double& sum) {
-            auto const s = sample(b, wo, uc, u, Mode::Importance, HemisphereSampling::Cosine);
-            if (!s || s->transmitted != through) return;
-            // Each part weighs what its choice has: all samples of both choices are looked at.
-            double f = 1;
-            if (eta != 0) {
-                Vec3 const wm = s->transmitted ? normalize(eta * s->wi + wo) : normalize(s->wi + wo);
-                f = static_cast<double>(fresnel_dielectric(std::abs(dot(wo, wm)), eta));
-            }
-            sum += throughput(*s) * (eta == 0 ? 1 : s->transmitted ? 1 - f : f) / n;
-        };
-        if (eta == 0) {
-            get(metal, 0.5f, false, p.reflected);
-        } else {
-            get(outside, 0, false, p.reflected);
-            get(outside, kOneMinusEpsilon, true, p.transmitted);
-        }
-    }
-    return p;
+    return albedo_by_lattice(m, {std::sqrt(1 - mu * mu), 0, mu}, eta);
 }
 
 }  // namespace
@@ -59,14 +22,14 @@ TEST_CASE("microfacet albedo: the table of perfect mirrors against quadrature") 
         double worst = 0, where_mu = 0, where_alpha = 0, worst_average = 0;
         for (float const alpha : kAlphas) {
             for (float const mu : kCosines) {
-                double const e = lattice({alpha, alpha, kind}, mu, 0).reflected;
+                double const e = lattice(Microfacets{alpha, alpha, kind}, mu, 0).reflected;
                 double const off = std::abs(static_cast<double>(microfacet_albedo(kind, mu, alpha)) - e);
                 if (off > worst) worst = off, where_mu = mu, where_alpha = alpha;
             }
             double sum = 0;
             for (int i = 0; i < 50; ++i) {
                 float const mu = std::sqrt((static_cast<float>(i) + 0.5f) / 50);
-                sum += lattice({alpha, alpha, kind}, mu, 0).reflected / 50;
+                sum += lattice(Microfacets{alpha, alpha, kind}, mu, 0).reflected / 50;
             }
             worst_average = std::max(
                 worst_average, std::abs(static_cast<double>(microfacet_albedo_average(kind, alpha)) - sum));
@@ -86,7 +49,7 @@ TEST_CASE("microfacet albedo: the tables of dielectrics against quadrature") {
         for (float const eta : {1.5f, 1 / 1.5f, 1.33f, 1 / 1.33f, 2.4f, 1 / 2.4f, 1.07f, 0.95f})
             for (float const alpha : kAlphas)
                 for (float const mu : kCosines) {
-                    Parts const p = lattice({alpha, alpha, kind}, mu, eta);
+                    Parts const p = lattice(Microfacets{alpha, alpha, kind}, mu, eta);
                     double const off[2] = {
                         std::abs(static_cast<double>(dielectric_reflection_albedo(kind, mu, alpha, eta)) -
                                  p.reflected),

@@ -1,27 +1,16 @@
 // Distributions of microfacet normals: normalisation, shadowing, known values, and normals drawn by their densities.
 #include "model/microfacet.h"
 
-#include "bsdf_checks.h"
+#include "microfacet_support.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
 
-struct Named {
-    std::string name;
-    Distribution kind;
-};
-Named const kDistributions[] = {{"trowbridge-reitz", Distribution::TrowbridgeReitz},
-                                {"beckmann", Distribution::Beckmann},
-                                {"blinn", Distribution::Blinn}};
-
-/// Roughnesses from nearly smooth to 1, and two anisotropic ones.
 std::vector<Microfacets> all_facets(Distribution kind) {
     std::vector<Microfacets> all;
-    for (float const a : {0.001f, 0.01f, 0.05f, 0.1f, 0.3f, 0.5f, 1.0f}) all.push_back({a, a, kind});
-    all.push_back({0.02f, 0.4f, kind});
-    all.push_back({0.4f, 0.05f, kind});
+    for (Vec2 const a : kRoughness) all.push_back({a.x, a.y, kind});
     return all;
 }
 
@@ -60,12 +49,13 @@ TEST_CASE(
                 INFO("theta ", theta);
                 CHECK(integral(m, w, [&](Vec3 wm) { return microfacet_pdf(m, w, wm); }) ==
                       doctest::Approx(1).epsilon(1e-4));
-                // Smith: the area that faces w is |cos| + hidden (Heitz 2014, eq. 23). Blinn's is Beckmann's: see below.
-                if (kind == Distribution::Blinn) continue;
+                // Smith: the area that faces w is |cos| + hidden (Heitz 2014, eq. 23); Blinn's within 0.002, and where it is
+                // anisotropic by the roughness along w's azimuth alone, which its shape does not justify: 0.02.
+                double const exact = kind != Distribution::Blinn ? 1e-4 : m.ax == m.ay ? 2e-3 : 0.02;
                 double const facing =
                     integral(m, w, [&](Vec3 wm) { return microfacet_d(m, wm) * std::max(0.0f, dot(w, wm)); });
                 CHECK(facing ==
-                      doctest::Approx(static_cast<double>(w.z + microfacet_hidden(m, w))).epsilon(1e-4));
+                      doctest::Approx(static_cast<double>(w.z + microfacet_hidden(m, w))).epsilon(exact));
             }
         }
 }
@@ -136,6 +126,8 @@ TEST_CASE("microfacets: known values") {
     // Lambda(45 degrees, alpha = 1): (sqrt 2 - 1) / 2; (exp(-1) / sqrt pi - erfc 1) / 2.
     CHECK(microfacet_lambda(of(TrowbridgeReitz, 1, 1), slant) == doctest::Approx(0.2071067812).epsilon(1e-6));
     CHECK(microfacet_lambda(of(Beckmann, 1, 1), slant) == doctest::Approx(0.0251275483).epsilon(1e-5));
+    // Blinn's at n = 0, normals uniform over the hemisphere: (1 - cos) / (2 cos).
+    CHECK(microfacet_lambda(of(Blinn, 1, 1), slant) == doctest::Approx(0.2071067812).epsilon(0.01));
     // G of two such directions, height-correlated.
     CHECK(microfacet_g(of(TrowbridgeReitz, 1, 1), slant, slant) ==
           doctest::Approx(1 / std::sqrt(2.0)).epsilon(1e-6));
