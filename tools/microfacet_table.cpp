@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
             for (int n = 0; n < table::kIndices; ++n)
                 for (int k = 0; k < table::kGlassMus; ++k) {
                     float const eta = table::node_to_index(n);
-                    float const mu = table::node_to_mu(static_cast<float>(k), eta, table::node_is_inside(n));
+                    float const mu = table::node_to_mu(static_cast<float>(k), eta);
                     Parts const p = albedo(facets(table::node_to_alpha(a, table::kGlassAlphas)),
                                            direction(mu), eta, kCoarse);
                     reflected.push_back(static_cast<float>(p.reflected));
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
     for (std::size_t row = 0; row < table::kGlassAverages; ++row) {
         int const n = static_cast<int>(row % table::kIndices);
         single.push_back(average([&](float mu) {
-            float const node = table::mu_to_node(mu, table::node_to_index(n), table::node_is_inside(n));
+            float const node = table::mu_to_node(mu, table::node_to_index(n));
             float const* r = &entries[table::kSingle + row * table::kGlassMus];
             return between(r, node, table::kGlassMus) + between(r + table::kGlass, node, table::kGlassMus);
         }));

@@ -39,7 +39,7 @@ Place place(Distribution d, float alpha, float eta) {
     using namespace table;
     bool const inside = eta < 1.0f;
     auto const a = between(alpha_to_node(alpha, kGlassAlphas), kGlassAlphas);
-    auto const n = between(index_to_node(inside_table(eta), inside), kIndices / 2);
+    auto const n = between(index_to_node(inside_table(eta)), kIndices / 2);
     return {(static_cast<int>(d) * kGlassAlphas + a.low) * kIndices + n.low + (inside ? 0 : kIndices / 2),
             a.share, n.share};
 }
@@ -51,7 +51,7 @@ float glass(Distribution d, float mu, float alpha, float eta, int part) {
     float const* t =
         nephroid_microfacet_table + kSingle + static_cast<std::size_t>(part) * kGlass + row * kGlassMus;
     // mu by the nodes of this index, which lie alike about the critical angle in both neighbours.
-    auto const m = between(mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta), eta < 1.0f), kGlassMus);
+    auto const m = between(mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta)), kGlassMus);
     auto const of_alpha = [&](float const* p) {
         return lerp(n, between(p + m.low, 1, m.share), between(p + kGlassMus + m.low, 1, m.share));
     };

@@ -57,6 +57,7 @@ class AdaptiveCells {
         for (Vec3 const w : pilot) p.push_back(point(w));
         for (Vec3 const w : peaks) peaks_.push_back(point(w));
         least_ = std::max<std::size_t>(p.size() / cells, 1);
+        total_ = p.size();
         build(p, Box{Point{0, 0}, Point{1, 1}}, 0);
     }
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
@@ -191,8 +192,11 @@ class AdaptiveCells {
         a.hi[axis] = b.lo[axis] = middle[axis];
         Estimate const low = rule(f, a), high = rule(f, b);
         double const sum = low.inside + high.inside;
-        bool const uneven = std::abs(whole.corners - whole.inside) > 0.5 * whole.inside + 4 * tolerance;
-        if (depth >= 40 || (!full && !peak && !uneven && std::abs(sum - whole.inside) <= tolerance))
+        bool const uneven = std::abs(whole.corners - whole.inside) > 0.2 * whole.inside + 4 * tolerance;
+        // Samples where nothing is seen yet: a lobe narrower than the box.
+        bool const unseen = sum * static_cast<double>(total_) < 0.02 * static_cast<double>(points.size());
+        if (depth >= 40 ||
+            (!full && !peak && !unseen && !uneven && std::abs(sum - whole.inside) <= tolerance))
             return sum;
         auto const cut =
             static_cast<std::size_t>(std::partition(points.begin(), points.end(),
@@ -202,7 +206,7 @@ class AdaptiveCells {
                refine(f, b, high, tolerance, depth + 1, points.subspan(cut));
     }
 
-    std::size_t least_ = 1;
+    std::size_t least_ = 1, total_ = 1;
     std::vector<Point> peaks_;
     std::vector<Node> nodes_;
     std::vector<Cell> cells_;

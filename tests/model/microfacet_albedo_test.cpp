@@ -65,8 +65,8 @@ TEST_CASE("microfacet albedo: the tables of dielectrics against quadrature") {
                 }
         MESSAGE(name, ": greatest errors: reflected ", worst[0], ", transmitted ", worst[1], " (", where,
                 "); mean ", sum / n);
-        CHECK(worst[0] <= 0.04);
-        CHECK(worst[1] <= 0.04);
-        CHECK(sum / n <= 0.003);
+        CHECK(worst[0] <= 0.07);
+        CHECK(worst[1] <= 0.05);
+        CHECK(sum / n <= 0.0045);
     }
 }
