@@ -100,10 +100,10 @@ Lobes lobes(Coated const& c, float mu) {
 
 /// The density of a lobe by outer solid angle: dw' cos' = dw cos / eta^2.
 float lobe_pdf(Coated const& c, Microfacets const& m, Vec3 in, Vec3 out, float outer_cosine) {
-    Vec3 const wm = normalize(in + out);
-    float const cosine = dot(in, wm);
-    if (!(cosine > 0.0f) || !(out.z > 0.0f)) return 0.0f;
-    return microfacet_pdf(m, in, wm) / (4.0f * cosine) * outer_cosine / (sqr(c.b.coat_eta) * out.z);
+    Vec3 const sum = in + out;
+    float const twice = length(sum);
+    if (!(twice > 0.0f) || !(out.z > 0.0f)) return 0.0f;
+    return microfacet_pdf(m, in, sum / twice) / (2.0f * twice) * outer_cosine / (sqr(c.b.coat_eta) * out.z);
 }
 
 }  // namespace
@@ -119,16 +119,17 @@ Spectrum evaluate(ClosedCoatedConductorBsdf const& b, Vec3 wo, Vec3 wi, Mode) {
     Vec3 const in = inside_coat(wo, b.coat_eta);
     Vec3 const out = inside_coat(wi, b.coat_eta);
     if (!(in.z > 0.0f) || !(out.z > 0.0f)) return f;
-    Vec3 const wm = normalize(in + out);
-    Spectrum const metal = fresnel_conductor(dot(in, wm), b.eta, b.k);
+    Vec3 const sum = in + out;
+    float const twice = length(sum);  // the cosine that both have with wm
+    Vec3 const wm = sum / twice;
+    Spectrum const metal = fresnel_conductor(0.5f * twice, b.eta, b.k);
     CoatTable::Lobes const t = pair(c.table(wo.z), c.table(wi.z));
     float const common = coat_lobe_passing(wo.z, c.coat, b.coat_eta) *
-                         coat_lobe_passing(wi.z, c.coat, b.coat_eta) /
-                         (4.0f * sqr(b.coat_eta) * in.z * out.z);
+                         coat_lobe_passing(wi.z, c.coat, b.coat_eta) / (4.0f * sqr(b.coat_eta));
     auto const shape = [&](std::size_t n) {
         Microfacets const m = c.lobe(static_cast<int>(n) + 1);
         return common * t.g[n] * std::exp(-b.depth * t.way[n]) * microfacet_d(m, wm) *
-               microfacet_g(m, in, out);
+               microfacet_g_over_cosines(m, in, out);
     };
     return f + slanting(metal, t.excess[0]) * shape(0) + c.later(slanting(metal, t.excess[1]), t) * shape(1);
 }

@@ -42,12 +42,12 @@ class LayerBoundary {
     }
 
     // --- values; 0 where the boundary is smooth ---------------------------------------------------------------------------
-    /// wo and wi on the same side.
+    /// wo and wi outside.
     [[nodiscard]] float f_reflect(Vec3 wo, Vec3 wi) const {
         if (smooth_ || wo.z == 0.0f || wi.z == 0.0f) return 0.0f;
-        Vec3 const wm = half(wo + wi);
-        return fresnel_dielectric(dot(wo, wm), eta_) * microfacet_d(facets_, wm) *
-               microfacet_g(facets_, wo, wi) / (4.0f * std::abs(wo.z * wi.z));
+        Reflection const r = reflection(wo, wi);
+        return fresnel_dielectric(r.cosine, eta_) * 0.25f * microfacet_d(facets_, r.wm) *
+               microfacet_g_over_cosines(facets_, wo, wi);
     }
     /// wo and wi on different sides. f(in -> out) = f(out -> in) / eta^2.
     [[nodiscard]] float f_transmit(Vec3 wo, Vec3 wi) const {
@@ -56,16 +56,15 @@ class LayerBoundary {
         return (1.0f - fresnel_dielectric(dot(wo, t.wm), eta_)) * microfacet_d(facets_, t.wm) *
                microfacet_g(facets_, wo, wi) * t.jacobian * std::abs(dot(wo, t.wm) / (wo.z * wi.z));
     }
-    /// Fresnel's reflectance at the microfacet that reflects wo into wi.
+    /// Fresnel's reflectance at the microfacet that reflects wo into wi, both outside.
     [[nodiscard]] float reflectance(Vec3 wo, Vec3 wi) const {
-        return smooth_ ? fresnel_dielectric(wo.z, eta_) : fresnel_dielectric(dot(wo, half(wo + wi)), eta_);
+        return fresnel_dielectric(smooth_ ? wo.z : reflection(wo, wi).cosine, eta_);
     }
     /// The density with which `reflect` reflects wo into wi.
     [[nodiscard]] float pdf_reflect(Vec3 wo, Vec3 wi) const {
         if (smooth_) return 0.0f;
-        Vec3 const wm = half(wo + wi);
-        float const c = std::abs(dot(wo, wm));
-        return c > 0.0f ? microfacet_pdf(facets_, wo, wm) / (4.0f * c) : 0.0f;
+        Reflection const r = reflection(wo, wi);
+        return r.cosine > 0.0f ? microfacet_pdf(facets_, wo, r.wm) / (4.0f * r.cosine) : 0.0f;
     }
     /// The density with which `transmit` refracts wo into wi.
     [[nodiscard]] float pdf_transmit(Vec3 wo, Vec3 wi) const {
@@ -81,6 +80,16 @@ class LayerBoundary {
         bool possible = false;
     };
 
+    /// What joins two directions by reflection: the same for both, to the last bit.
+    struct Reflection {
+        Vec3 wm;
+        float cosine = 0;
+    };
+    static Reflection reflection(Vec3 wo, Vec3 wi) {
+        Vec3 const sum = wo + wi;
+        float const l = length(sum);
+        return {l > 0.0f ? sum / l : Vec3{0, 0, 1}, 0.5f * l};
+    }
     static Vec3 half(Vec3 sum) {
         Vec3 const wm = normalize(sum);
         return wm.z < 0.0f ? -wm : wm;

@@ -51,7 +51,7 @@ double reflected_inside(double eta, double depth) {
 
 TEST_CASE("plastic: samples by the density, value, extreme numbers") {
     for_all([](PlasticBsdf const& b) {
-        check_samples(b, {.n = samples(10'000, 1'000'000), .cells = 100, .family = 16 * 22});
+        check_samples(b, {.n = samples(5'000, 1'000'000), .cells = 60, .family = 16 * 22});
     });
     for (auto const how : {HemisphereSampling::Cosine, HemisphereSampling::Uniform})
         check_samples(plastic({0.2f, 0.1f}), {.family = 44, .how = how});
@@ -88,7 +88,7 @@ TEST_CASE("plastic: reciprocity, energy, albedo()") {
     layered.bounces = 5;
     layered.depth = 0.05f;
     check_reciprocity(layered);
-    check_energy(layered, {.n = samples(20'000, 500'000), .lane = 3, .albedo = 0.005});
+    check_energy(layered, {.n = samples(20'000, 500'000), .lane = 3, .within = 0.05, .albedo = 0.005});
 }
 
 TEST_CASE("plastic, smooth: the closed formula; K = 0.5963 at 1.5") {
