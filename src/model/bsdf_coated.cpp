@@ -377,7 +377,7 @@ bool closed(Coat const& c, CoatLayer const& l, bool holds) {
 float alpha_of(Microfacets const& m) { return max(m.ax, m.ay); }
 /// What the table of coats was made for.
 bool tabulated(Microfacets const& m) {
-    return m.smooth() || (m.kind == Distribution::TrowbridgeReitz && min(m.ax, m.ay) * 4.0f >= alpha_of(m));
+    return m.smooth() || (m.kind == Distribution::TrowbridgeReitz && min(m.ax, m.ay) * 1.5f >= alpha_of(m));
 }
 bool closed_form_holds(CoatLayer const& l) {
     if (l.facets.smooth()) return true;
@@ -385,9 +385,11 @@ bool closed_form_holds(CoatLayer const& l) {
 }
 bool closed_form_holds(CoatLayer const& l, Microfacets const& base) {
     if (l.facets.smooth() && base.smooth()) return true;
+    // Where the base is much smoother than the coat, light meets it at angles that the lobes know nothing of.
+    float const a = l.facets.smooth() ? 0.0f : alpha_of(l.facets);
     float const b = base.smooth() ? 0.0f : alpha_of(base);
     return tabulated(l.facets) && tabulated(base) && coat_table_covers(l.eta) && l.thickness <= 0.02f &&
-           (l.facets.smooth() ? b >= 0.05f : alpha_of(l.facets) <= 0.3f && b >= 0.1f);
+           a <= 0.25f && b >= 0.05f && b >= 1.6f * a;
 }
 /// How often light may meet the base among that many events.
 std::uint8_t meetings(CoatLayer const& l) { return static_cast<std::uint8_t>((l.max_depth + 1) / 2); }
