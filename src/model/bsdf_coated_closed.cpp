@@ -13,6 +13,7 @@
 #include "diffuse_boundary.h"
 #include "layer_boundary.h"
 #include "make_bsdf.h"
+#include "sampling/warp.h"
 
 #include <array>
 #include <cmath>
@@ -98,8 +99,11 @@ Lobes lobes(Coated const& c, float mu) {
     return l;
 }
 
+/// So wide that much of it would be drawn beyond the critical angle, in vain: it is drawn by the cosine outside.
+bool wide(Microfacets const& m) { return max(m.ax, m.ay) > 0.5f; }
 /// The density of a lobe by outer solid angle: dw' cos' = dw cos / eta^2.
 float lobe_pdf(Coated const& c, Microfacets const& m, Vec3 in, Vec3 out, float outer_cosine) {
+    if (wide(m)) return cosine_hemisphere_pdf(outer_cosine);
     Vec3 const sum = in + out;
     float const twice = length(sum);
     if (!(twice > 0.0f) || !(out.z > 0.0f)) return 0.0f;
@@ -174,14 +178,19 @@ std::optional<BsdfSample> sample(ClosedCoatedConductorBsdf const& b, Vec3 wo, fl
         if (!step) return result;
         wi = step->w;
     } else {
-        Vec3 const in = inside_coat(above, b.coat_eta);
-        Vec3 const wm = sample_microfacet(c.lobe(uc < l.probability[0] + l.probability[1] ? 1 : 2), in, u);
-        Vec3 const out = wm * (2.0f * dot(in, wm)) - in;
-        // Beyond the critical angle it stays inside; the table counts what becomes of it.
-        Vec2 const across{out.x * b.coat_eta, out.y * b.coat_eta};
-        float const sin2 = sqr(across.x) + sqr(across.y);
-        if (!(out.z > 0.0f) || sin2 >= 1.0f) return result;
-        wi = {across.x, across.y, std::sqrt(1.0f - sin2)};
+        Microfacets const m = c.lobe(uc < l.probability[0] + l.probability[1] ? 1 : 2);
+        if (wide(m)) {
+            wi = square_to_cosine_hemisphere(u);
+        } else {
+            Vec3 const in = inside_coat(above, b.coat_eta);
+            Vec3 const wm = sample_microfacet(m, in, u);
+            Vec3 const out = wm * (2.0f * dot(in, wm)) - in;
+            // Beyond the critical angle it stays inside; the table counts what becomes of it.
+            Vec2 const across{out.x * b.coat_eta, out.y * b.coat_eta};
+            float const sin2 = sqr(across.x) + sqr(across.y);
+            if (!(out.z > 0.0f) || sin2 >= 1.0f) return result;
+            wi = {across.x, across.y, std::sqrt(1.0f - sin2)};
+        }
     }
     if (below) wi = -wi;
     float const density = pdf(b, wo, wi, how);

@@ -78,7 +78,7 @@ TEST_CASE("coats: samples carry what values integrate to") {
         if (traits(b).delta) return;
         for (Vec3 const wo : few()) {
             Mean spread, delta, values;
-            int const n = samples(60'000, 2'000'000);
+            int const n = samples(40'000, 2'000'000);
             for (int i = 0; i < n; ++i) add_sample(b, wo, r, spread, delta);
             for (int i = 0; i < n; ++i) {
                 b.seed = static_cast<std::uint32_t>(r.bits());
@@ -104,7 +104,7 @@ TEST_CASE("coats: samples carry what values integrate to") {
                  values.mean(), " +- ", values.standard_error());
             CHECK(same(spread, values) >= sidak(4 * 11));
             CHECK(spread.mean() + delta.mean() <= 1);
-            CHECK(values.half_width() <= 0.03 * values.mean() + 0.003);
+            CHECK(values.half_width() <= 0.04 * values.mean() + 0.003);
         }
     });
 }
@@ -244,7 +244,7 @@ TEST_CASE("coats: what loses nothing returns all light but what max_depth cuts o
                 add_sample(b, wo, r, spread, delta);
                 all.add(spread.mean() + delta.mean());
             }
-            auto const a = agrees(all, 1 - (1 - f) * std::pow(0.5963, meetings), 0.01, sidak(6));
+            auto const a = agrees(all, 1 - (1 - f) * std::pow(0.5963, meetings), 0.02, sidak(6));
             INFO("meetings ", meetings, ": ", a);
             CHECK(a);
         }
@@ -308,7 +308,7 @@ TEST_CASE("closed coated conductor: samples by the density, reciprocity, energy"
         for (Vec2 const base : {Vec2{0, 0}, {0.001f, 0.001f}, {0.05f, 0.05f}, {0.4f, 0.1f}, {1, 1}}) {
             auto const b = closed_copper(coat, base);
             INFO("coat ", coat, ", base ", base.x, " ", base.y);
-            BsdfChecks c{.n = samples(8'000, 1'000'000), .cells = 80, .family = 20 * 22};
+            BsdfChecks c{.n = samples(5'000, 1'000'000), .cells = 60, .family = 20 * 22};
             c.directions = {direction(0, 0), direction(0.7, 1), direction(1.3, -2), direction(2.2, 2),
                             direction(1.55, 1)};
             check_samples(b, c);
@@ -321,8 +321,8 @@ TEST_CASE("closed coated conductor: samples by the density, reciprocity, energy"
 }
 
 TEST_CASE("closed forms stay within 2% of the walks' albedo where they are the default") {
-    int const n = samples(40'000, 400'000);
-    double const room = 0.02 + (full() ? 0.002 : 0.01);  // what the walks' noise may add
+    int const n = samples(25'000, 400'000);
+    double const room = 0.02 + (full() ? 0.003 : 0.012);  // what the walks' noise may add
     double worst_diffuse = 0, worst_metal = 0;
     for (double const mu : {1.0, 0.5, 0.2, 0.05}) {
         Vec3 const wo = direction(std::acos(mu), 0.3);
