@@ -3,6 +3,7 @@
 #include "film/film.h"
 #include "model/camera.h"
 #include "model/filter.h"
+#include "model/fresnel.h"
 #include "model/material.h"
 #include "read/read.h"
 #include "sampling/distribution.h"
@@ -172,39 +173,90 @@ void scattering() {
         return fresnel_conductor(w.z, Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f));
     });
 
+    // Every model once, and microfacets in each of their kinds.
     struct Named {
         char const* name;
         Bsdf bsdf;
     };
-    for (auto const& [name, bsdf] : {Named{"diffuse", DiffuseBsdf{Spectrum(0.5f)}},
-                                     {"dielectric", DielectricBsdf{Spectrum(1.5f), false}},
-                                     {"thindielectric", ThinDielectricBsdf{Spectrum(1.5f)}},
-                                     {"conductor", ConductorBsdf{Spectrum(0.2f), Spectrum(3.9f)}}}) {
-        add(std::string("bsdf/sample/") + name, squares(), [b = bsdf](Vec2 u) {
-            return sample(b, Vec3{0.6f, 0, 0.8f}, u.x, u, Mode::Radiance, HemisphereSampling::Cosine);
+    auto const facets = [](Distribution kind, bool multiscatter) {
+        return Microfacets{0.3f, 0.3f, kind, multiscatter};
+    };
+    auto const metal = [&](Distribution kind, bool multiscatter) {
+        return RoughConductorBsdf{Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f),
+                                  facets(kind, multiscatter)};
+    };
+    auto const glass = [&](Distribution kind, bool multiscatter) {
+        return RoughDielectricBsdf{1.5f, false, facets(kind, multiscatter)};
+    };
+    using enum Distribution;
+    std::vector<Named> const models{{"diffuse", DiffuseBsdf{Spectrum(0.5f)}},
+                                    {"dielectric", DielectricBsdf{Spectrum(1.5f), false}},
+                                    {"thindielectric", ThinDielectricBsdf{Spectrum(1.5f)}},
+                                    {"conductor", ConductorBsdf{Spectrum(0.2f), Spectrum(3.9f)}},
+                                    {"rough_conductor", metal(TrowbridgeReitz, false)},
+                                    {"rough_conductor/beckmann", metal(Beckmann, false)},
+                                    {"rough_conductor/blinn", metal(Blinn, false)},
+                                    {"rough_conductor/multiscatter", metal(TrowbridgeReitz, true)},
+                                    {"rough_dielectric", glass(TrowbridgeReitz, false)},
+                                    {"rough_dielectric/beckmann", glass(Beckmann, false)},
+                                    {"rough_dielectric/blinn", glass(Blinn, false)},
+                                    {"rough_dielectric/multiscatter", glass(TrowbridgeReitz, true)},
+                                    {"diffusetransmission", DiffuseTransmissionBsdf{}},
+                                    {"coateddiffuse", CoatedDiffuseBsdf{}},
+                                    {"coatedconductor", CoatedConductorBsdf{}},
+                                    {"plastic", PlasticBsdf{}},
+                                    {"ashikhminshirley", AshikhminShirleyBsdf{}},
+                                    {"metallic_roughness", MetallicRoughnessBsdf{}}};
+    for (auto const& [name, bsdf] : models) {
+        Vec3 const wo{0.6f, 0, 0.8f};
+        add(std::string("bsdf/sample/") + name, squares(), [b = bsdf, wo](Vec2 u) {
+            return sample(b, wo, u.x, u, Mode::Radiance, HemisphereSampling::Cosine);
         });
-        add(std::string("bsdf/evaluate_and_pdf/") + name, upper_directions(), [b = bsdf](Vec3 wi) {
-            Vec3 const wo{0.6f, 0, 0.8f};
-            return evaluate(b, wo, wi, Mode::Radiance) * pdf(b, wo, wi, HemisphereSampling::Cosine);
-        });
+        add(std::string("bsdf/evaluate/") + name, upper_directions(),
+            [b = bsdf, wo](Vec3 wi) { return evaluate(b, wo, wi, Mode::Radiance); });
+        add(std::string("bsdf/pdf/") + name, upper_directions(),
+            [b = bsdf, wo](Vec3 wi) { return pdf(b, wo, wi, HemisphereSampling::Cosine); });
     }
     add("frame/from_z", directions(), [](Vec3 n) { return frame_from_z(n); });
 }
 
+/// The scene's textures, and one of each kind that it has not.
+Scene with_all_textures(Scene scene) {
+    auto const add = [&](TextureKind kind) { return scene.add(Texture{std::move(kind), {}}); };
+    TextureId const red =
+        add(ConstantSpectrumTexture{RgbAlbedoSpd{{0.8f, 0.1f, 0.1f}}, SpectrumRole::Albedo});
+    TextureId const gray = add(ConstantSpectrumTexture{ConstantSpd{0.5f}, SpectrumRole::Albedo});
+    add(DirectionMixTexture{red, gray, {0, 1, 1}});
+    add(BilerpTexture{{}, red, gray, gray, red});
+    add(DotsTexture{UvMapping{14, 7, 0, 0}, red, gray});
+    add(FbmTexture{});
+    add(WrinkledTexture{});
+    add(WindyTexture{});
+    add(MarbleTexture{});
+    return scene;
+}
+
 void textures() {
-    static World const world = compile(read_scene(bench::scene_file("shapes.pbrt")));
+    static World const world = compile(with_all_textures(read_scene(bench::scene_file("shapes.pbrt"))));
     static auto const points = table([](std::uint64_t i) {
         TexturePoint t;
         t.uv = {uniform(i, 21), uniform(i, 22)};
         t.p = {uniform(i, 23), uniform(i, 24), uniform(i, 25)};
         t.duv_dx = {0.004f, 0.001f};
         t.duv_dy = {0.001f, 0.002f};
+        t.dpdx = {0.004f, 0.001f, 0};
+        t.dpdy = {0, 0.001f, 0.002f};
         return t;
     });
     auto const& textures = world.scene().textures;
     std::array<bool, std::variant_size_v<TextureKind>> seen{};
-    constexpr std::array kNames{
-        "constant_float", "constant_spectrum", "imagemap", "checkerboard", "scale", "mix"};
+    constexpr std::array kNames{"constant_float", "constant_spectrum",
+                                "imagemap",       "checkerboard",
+                                "scale",          "mix",
+                                "directionmix",   "bilerp",
+                                "dots",           "fbm",
+                                "wrinkled",       "windy",
+                                "marble"};
     static_assert(kNames.size() == std::variant_size_v<TextureKind>);
     for (std::uint32_t i = 0; i < textures.size(); ++i) {
         std::size_t const kind = textures[i].kind.index();

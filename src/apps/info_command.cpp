@@ -84,6 +84,9 @@ int run(InfoOptions const& o) {
         j["triangles"] = world.counts().triangles;
         j["objects"] = world.counts().objects;
         j["instances"] = world.counts().instances;
+        j["textures"] = s.textures.size();
+        j["image_files"] = world.assets().image_files();
+        j["image_bytes"] = world.memory().images;
         j["bytes"] = world.memory().total();
         j["estimated_bytes"] = {{"world", need.world}, {"film", need.film}, {"total", need.total()}};
         j["notes"] = nlohmann::json::array();
@@ -106,7 +109,8 @@ int run(InfoOptions const& o) {
         print("bounds      ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})\n", b.lo.x, b.lo.y, b.lo.z,
               b.hi.x, b.hi.y, b.hi.z);
     print("materials   {}\n", text_of(tally(s.materials)));
-    print("textures    {}, {} pictures\n", s.textures.size(), s.images.size());
+    print("textures    {}; pictures {} in {} {}\n", s.textures.size(), bytes_text(m.images),
+          world.assets().image_files(), world.assets().image_files() == 1 ? "file" : "files");
     print("lights      {}; {} to choose from in all\n", text_of(tally(s.lights)), c.lights);
     print("memory      {}: meshes {}, acceleration {}, images {}, lights {}\n", bytes_text(m.total()),
           bytes_text(m.meshes), bytes_text(m.bvh), bytes_text(m.images), bytes_text(m.lights));

@@ -315,6 +315,7 @@ int run(RenderOptions const& o) {
     stats.rays = result.rays;
     stats.memory = world.memory();
     stats.counts = world.counts();
+    stats.image_files = world.assets().image_files();
     stats.film_bytes = film.bytes();
     stats.passes = result.passes;
     stats.samples = result.passes * static_cast<std::uint64_t>(crop[1] - crop[0]) *

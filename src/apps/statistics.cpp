@@ -39,8 +39,9 @@ std::string table(RunStatistics const& s) {
                      s.samples ? static_cast<double>(all) / static_cast<double>(s.samples) : 0.0,
                      rate(s.samples, s.render_seconds) / 1e6);
     t += fmt::format(
-        "memory  meshes {}, acceleration {}, images {}, spectra {}, lights {}, instances {}, film {}\n",
-        bytes_text(s.memory.meshes), bytes_text(s.memory.bvh), bytes_text(s.memory.images),
+        "memory  meshes {}, acceleration {}, images {} in {} files, spectra {}, lights {}, instances {}, "
+        "film {}\n",
+        bytes_text(s.memory.meshes), bytes_text(s.memory.bvh), bytes_text(s.memory.images), s.image_files,
         bytes_text(s.memory.spectra), bytes_text(s.memory.lights), bytes_text(s.memory.instances),
         bytes_text(s.film_bytes));
     if (s.dropped > 0)
@@ -64,11 +65,9 @@ nlohmann::json to_json(RunStatistics const& s) {
                   {"images", s.memory.images}, {"spectra", s.memory.spectra},
                   {"lights", s.memory.lights}, {"instances", s.memory.instances},
                   {"film", s.film_bytes}};
-    j["world"] = {{"objects", s.counts.objects},
-                  {"triangles", s.counts.triangles},
-                  {"analytic", s.counts.analytic},
-                  {"instances", s.counts.instances},
-                  {"lights", s.counts.lights}};
+    j["world"] = {{"objects", s.counts.objects},   {"triangles", s.counts.triangles},
+                  {"analytic", s.counts.analytic}, {"instances", s.counts.instances},
+                  {"lights", s.counts.lights},     {"image_files", s.image_files}};
     j["threads"] = s.threads;
     j["passes"] = s.passes;
     j["samples"] = s.samples;

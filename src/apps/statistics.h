@@ -15,6 +15,7 @@ struct RunStatistics {
     RayStats rays;
     WorldMemory memory;
     WorldCounts counts;
+    std::size_t image_files = 0;
     std::size_t film_bytes = 0;
     std::uint64_t passes = 0, samples = 0;
     std::uint64_t dropped = 0, rejected = 0;  // of the whole film

@@ -119,7 +119,7 @@ Plane filter_by_sensitivity(Plane const& in, int width, int height, Sensitivity 
     for (auto const& [a, b] : {std::pair{s.a1, s.b1}, std::pair{s.a2, s.b2}}) {
         if (a == 0) continue;
         Plane const kernel =
-            make_kernel(radius, [&](double k) { return std::exp(-kPiSquared * sqr(k / ppd) / b); });
+            make_kernel(radius, [&, b = b](double k) { return std::exp(-kPiSquared * sqr(k / ppd) / b); });
         double sum = 0;
         for (double const k : kernel) sum += k;
         double const amplitude = a * std::sqrt(3.141592653589793 / b);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace nephroid {
 
@@ -86,15 +88,8 @@ Image::Image(PixelFormat format, int width, int height, std::vector<std::string>
     auto const n = static_cast<std::size_t>(count);
     switch (format) {
         case PixelFormat::U8:
-            encoding_ = encoding;
-            decode_.resize(256);
-            for (int i = 0; i < 256; ++i) {
-                auto const byte = static_cast<std::uint8_t>(i);
-                decode_[byte] = encoding.kind == Encoding::Kind::Srgb
-                                    ? srgb_byte_to_linear(byte)
-                                    : decode(encoding, static_cast<float>(i) / 255.0f);
-            }
-            u8_.resize(n);
+            set_encoding(encoding);
+            u8_ = std::make_shared<std::vector<std::uint8_t>>(n);
             break;
         case PixelFormat::Half:
             half_.resize(n);
@@ -111,13 +106,40 @@ std::optional<int> Image::channel(std::string_view name) const {
     return static_cast<int>(found - names_.begin());
 }
 
-std::size_t Image::bytes() const { return u8_.size() + 2 * half_.size() + 4 * float_.size(); }
+std::vector<std::uint8_t> const& Image::no_bytes() {
+    static std::vector<std::uint8_t> const none;
+    return none;
+}
+
+void Image::set_encoding(Encoding encoding) {
+    encoding_ = encoding;
+    decode_.resize(256);
+    for (int i = 0; i < 256; ++i) {
+        auto const byte = static_cast<std::uint8_t>(i);
+        decode_[byte] = encoding.kind == Encoding::Kind::Srgb
+                            ? srgb_byte_to_linear(byte)
+                            : decode(encoding, static_cast<float>(i) / 255.0f);
+    }
+}
+
+Image Image::with_encoding(Encoding encoding) const {
+    Image other = *this;
+    other.set_encoding(encoding);
+    return other;
+}
+
+std::vector<std::uint8_t>& Image::u8() {
+    if (u8_.use_count() != 1) u8_ = std::make_shared<std::vector<std::uint8_t>>(std::as_const(*this).u8());
+    return *u8_;
+}
+
+std::size_t Image::bytes() const { return u8().size() + 2 * half_.size() + 4 * float_.size(); }
 
 void Image::set(int x, int y, int c, float linear) {
     std::size_t const i = index(x, y, c);
     switch (format_) {
         case PixelFormat::U8:
-            u8_[i] = to_byte(c == alpha_ ? linear : encode(encoding_, linear));
+            u8()[i] = to_byte(c == alpha_ ? linear : encode(encoding_, linear));
             break;
         case PixelFormat::Half:
             half_[i] =
@@ -170,6 +192,20 @@ std::size_t sanitize(Image& image) {
         bool const positive_infinity = image.get(x, y, c) == kInfinity;
         image.set(x, y, c, positive_infinity ? largest[static_cast<std::size_t>(c)] : 0.0f);
     });
+}
+
+bool store_as_halves_if_exact(Image& image) {
+    if (image.format() != PixelFormat::Float) return false;
+    auto const same = [](float v) {
+        return std::bit_cast<std::uint32_t>(half_to_float(float_to_half(v))) ==
+               std::bit_cast<std::uint32_t>(v);
+    };
+    if (!std::all_of(image.floats().begin(), image.floats().end(), same)) return false;
+    Image halves(PixelFormat::Half, image.width(), image.height(), image.channel_names());
+    std::transform(image.floats().begin(), image.floats().end(), halves.half_bits().begin(), float_to_half);
+    halves.chromaticities = image.chromaticities;
+    image = std::move(halves);
+    return true;
 }
 
 std::vector<std::string> default_channel_names(int channels) {

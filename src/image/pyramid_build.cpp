@@ -1,6 +1,7 @@
 #include "image/pyramid.h"
 
 #include <algorithm>
+#include <deque>
 
 namespace nephroid {
 
@@ -35,32 +36,59 @@ std::vector<Taps> halving(int n) {
     return taps;
 }
 
-/// Linear floats beside the stored level: halving from these keeps the rounding of bytes from piling up.
-struct Plane {
-    int width = 0, height = 0, channels = 0;
-    std::vector<float> values;
-};
+/// One level while it is made. It takes the rows of the level above from the top, in linear light, and hands its own on to
+/// the next level as floats: the rounding of stored bytes does not pile up, and only a few rows are ever held as floats.
+class Halving {
+  public:
+    /// From a level of that size to `stored`. `next` is the level below, if any.
+    Halving(int width, int height, Image& stored, Halving* next)
+        : stored_(stored),
+          next_(next),
+          across_(halving(width)),
+          down_(halving(height)),
+          out_(across_.size() * static_cast<std::size_t>(stored.channels())) {
+        for (auto& row : recent_) row.resize(out_.size());
+    }
 
-template <class Source>
-Plane halve(Source&& source, int width, int height, int channels) {
-    Plane out{std::max(1, width / 2), std::max(1, height / 2), channels, {}};
-    out.values.reserve(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) *
-                       static_cast<std::size_t>(channels));
-    auto const across = halving(width), down = halving(height);
-    for (Taps const& v : down)
-        for (Taps const& u : across)
-            for (int c = 0; c < channels; ++c) {
+    void push(std::vector<float> const& row) {
+        auto const channels = static_cast<std::size_t>(stored_.channels());
+        auto& reduced = recent_[static_cast<std::size_t>(arrived_ % 3)];
+        std::size_t i = 0;
+        for (Taps const& u : across_)
+            for (std::size_t c = 0; c < channels; ++c) {
                 float sum = 0;
-                for (int j = 0; j < v.count; ++j) {
-                    float row = 0;
-                    for (int i = 0; i < u.count; ++i)
-                        row += u.weight[i] * source(u.first + i, v.first + j, c);
-                    sum += v.weight[j] * row;
-                }
-                out.values.push_back(sum);
+                for (int k = 0; k < u.count; ++k)
+                    sum += u.weight[k] * row[static_cast<std::size_t>(u.first + k) * channels + c];
+                reduced[i++] = sum;
             }
-    return out;
-}
+        ++arrived_;
+        if (done_ == stored_.height()) return;
+        Taps const& v = down_[static_cast<std::size_t>(done_)];
+        if (arrived_ == v.first + v.count) finish_row(v);
+    }
+
+  private:
+    void finish_row(Taps const& v) {
+        for (std::size_t i = 0; i < out_.size(); ++i) {
+            float sum = 0;
+            for (int k = 0; k < v.count; ++k)
+                sum += v.weight[k] * recent_[static_cast<std::size_t>((v.first + k) % 3)][i];
+            out_[i] = sum;
+        }
+        std::size_t i = 0;
+        for (int x = 0; x < stored_.width(); ++x)
+            for (int c = 0; c < stored_.channels(); ++c) stored_.set(x, done_, c, out_[i++]);
+        ++done_;
+        if (next_) next_->push(out_);
+    }
+
+    Image& stored_;
+    Halving* next_;
+    std::vector<Taps> across_, down_;
+    std::vector<float> recent_[3];  // rows of the level above, halved across; row y at y mod 3
+    std::vector<float> out_;
+    int arrived_ = 0, done_ = 0;
+};
 
 bool has_transparency(Image const& image, int alpha) {
     for (int y = 0; y < image.height(); ++y)
@@ -82,29 +110,23 @@ Pyramid::Pyramid(Image image) {
         scalar_ = *alpha;
 
     levels_.push_back(std::move(image));
-    Plane last;
     while (levels_.back().width() > 1 || levels_.back().height() > 1) {
         Image const& above = levels_.back();
-        Plane next;
-        if (levels_.size() == 1) {
-            next = halve([&](int x, int y, int c) { return above.get(x, y, c); }, above.width(),
-                         above.height(), channels);
-        } else {
-            auto from_plane = [&](int x, int y, int c) {
-                return last.values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(last.width) +
-                                    static_cast<std::size_t>(x)) *
-                                       static_cast<std::size_t>(channels) +
-                                   static_cast<std::size_t>(c)];
-            };
-            next = halve(from_plane, last.width, last.height, channels);
-        }
-        Image stored(above.format(), next.width, next.height, above.channel_names(), above.encoding());
+        levels_.emplace_back(above.format(), std::max(1, above.width() / 2), std::max(1, above.height() / 2),
+                             above.channel_names(), above.encoding());
+    }
+    if (levels_.size() == 1) return;
+    std::deque<Halving> halvings;  // the smallest level first; addresses stay
+    for (std::size_t i = levels_.size() - 1; i > 0; --i)
+        halvings.emplace_back(levels_[i - 1].width(), levels_[i - 1].height(), levels_[i],
+                              halvings.empty() ? nullptr : &halvings.back());
+    Image const& base = levels_[0];
+    std::vector<float> row(static_cast<std::size_t>(base.width()) * static_cast<std::size_t>(channels));
+    for (int y = 0; y < base.height(); ++y) {
         std::size_t i = 0;
-        for (int y = 0; y < next.height; ++y)
-            for (int x = 0; x < next.width; ++x)
-                for (int c = 0; c < channels; ++c) stored.set(x, y, c, next.values[i++]);
-        levels_.push_back(std::move(stored));
-        last = std::move(next);
+        for (int x = 0; x < base.width(); ++x)
+            for (int c = 0; c < channels; ++c) row[i++] = base.get(x, y, c);
+        halvings.back().push(row);
     }
 }
 

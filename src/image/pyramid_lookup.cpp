@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr float kMaxAnisotropy = 8.0f;  // an ellipse longer than this is blurred along its short axis instead
+constexpr float kMostAnisotropy = 64.0f;
 constexpr int kFalloffSize = 128;
 
 /// EWA's weight by squared radius: a Gaussian exp(-2 r^2), lowered to reach 0 at the ellipse's edge.
@@ -55,10 +55,11 @@ class Sampler {
                (1 - dx) * dy * fetch_(level, xi, yi + 1) + dx * dy * fetch_(level, xi + 1, yi + 1);
     }
 
-    T lookup(Vec2 st, TextureFilter filter, Vec2 dst0, Vec2 dst1) const {
+    T lookup(Vec2 st, TextureFilter filter, Vec2 dst0, Vec2 dst1, float max_anisotropy) const {
         if (!std::isfinite(st.x + st.y)) st = Vec2(0);
         if (!std::isfinite(dst0.x + dst0.y + dst1.x + dst1.y)) dst0 = dst1 = Vec2(0);
-        if (filter == TextureFilter::Ewa) return ewa(st, dst0, dst1);
+        if (filter == TextureFilter::Ewa)
+            return ewa(st, dst0, dst1, clamp(max_anisotropy, 1.0f, kMostAnisotropy));
         float const width =
             2.0f * std::max({std::abs(dst0.x), std::abs(dst0.y), std::abs(dst1.x), std::abs(dst1.y)});
         float const level = width_to_level(width, pyramid_.level(0));
@@ -77,13 +78,13 @@ class Sampler {
 
   private:
     /// Elliptically weighted average (Greene & Heckbert 1986), between two levels chosen by the shorter axis.
-    T ewa(Vec2 st, Vec2 dst0, Vec2 dst1) const {
+    T ewa(Vec2 st, Vec2 dst0, Vec2 dst1, float max_anisotropy) const {
         auto norm = [](Vec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); };
         if (norm(dst0) < norm(dst1)) std::swap(dst0, dst1);
         float const longer = norm(dst0);
         float shorter = norm(dst1);
-        if (shorter > 0.0f && shorter * kMaxAnisotropy < longer) {
-            float const scale = longer / (shorter * kMaxAnisotropy);
+        if (shorter > 0.0f && shorter * max_anisotropy < longer) {
+            float const scale = longer / (shorter * max_anisotropy);
             dst1 *= scale;
             shorter *= scale;
         }
@@ -198,17 +199,20 @@ Vec3 Pyramid::bilerp_rgb(int level, Vec2 st, Wrap wrap) const {
     return make_sampler<Vec3>(*this, fetch_rgb(*this, rgb_, wrap)).bilerp(level, st);
 }
 
-Vec3 Pyramid::lookup_rgb(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1) const {
-    return make_sampler<Vec3>(*this, fetch_rgb(*this, rgb_, wrap)).lookup(st, filter, dst0, dst1);
+Vec3 Pyramid::lookup_rgb(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1,
+                         float max_anisotropy) const {
+    return make_sampler<Vec3>(*this, fetch_rgb(*this, rgb_, wrap))
+        .lookup(st, filter, dst0, dst1, max_anisotropy);
 }
 
-float Pyramid::lookup(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1) const {
+float Pyramid::lookup(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1,
+                      float max_anisotropy) const {
     if (scalar_ < 0) {
-        Vec3 const rgb = lookup_rgb(st, filter, wrap, dst0, dst1);
+        Vec3 const rgb = lookup_rgb(st, filter, wrap, dst0, dst1, max_anisotropy);
         return (rgb.x + rgb.y + rgb.z) / 3.0f;
     }
     auto fetch = [&](int l, int x, int y) { return texel(l, x, y, scalar_, wrap); };
-    return make_sampler<float>(*this, fetch).lookup(st, filter, dst0, dst1);
+    return make_sampler<float>(*this, fetch).lookup(st, filter, dst0, dst1, max_anisotropy);
 }
 
 }  // namespace nephroid

@@ -4,7 +4,9 @@
 #include "image/file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 #include <new>
 #include <string_view>
 
@@ -56,14 +58,18 @@ bool has_extension(std::filesystem::path const& path, std::string_view extension
     return actual == extension;
 }
 
+// The first bytes of the formats; TGA has none.
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xff\xd8\xff", kExr = "\x76\x2f\x31\x01",
+                           kHdr = "#?", kPfm = "PF", kGrayPfm = "Pf";
+
 Image decode_by_content(Bytes file, std::filesystem::path const& path, std::optional<Encoding> encoding) {
     std::string const name = path.string();
     if (file.empty()) codec::fail(name, "the file is empty");
-    if (starts_with(file, "\x89PNG\r\n\x1a\n")) return codec::decode_png(file, name, encoding);
-    if (starts_with(file, "\xff\xd8\xff")) return codec::decode_jpeg(file, name, encoding);
-    if (starts_with(file, "\x76\x2f\x31\x01")) return codec::decode_exr(file, name);
-    if (starts_with(file, "#?")) return codec::decode_hdr(file, name);
-    if (starts_with(file, "PF") || starts_with(file, "Pf")) return codec::decode_pfm(file, name);
+    if (starts_with(file, kPng)) return codec::decode_png(file, name, encoding);
+    if (starts_with(file, kJpeg)) return codec::decode_jpeg(file, name, encoding);
+    if (starts_with(file, kExr)) return codec::decode_exr(file, name);
+    if (starts_with(file, kHdr)) return codec::decode_hdr(file, name);
+    if (starts_with(file, kPfm) || starts_with(file, kGrayPfm)) return codec::decode_pfm(file, name);
     if (has_extension(path, ".tga")) return codec::decode_tga(file, name, encoding);
     codec::fail(name, "is no image of a known format; PNG, JPEG, EXR, HDR, PFM and TGA are read");
 }
@@ -77,6 +83,17 @@ Image read_image(std::filesystem::path const& path, std::optional<Encoding> enco
     } catch (std::bad_alloc const&) {
         codec::fail(path.string(), "the image does not fit in memory; scale it down", ErrorKind::Limit);
     }
+}
+
+bool stores_light(std::filesystem::path const& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;
+    std::array<std::byte, 4> head{};
+    std::ifstream in(path, std::ios::binary);
+    in.read(reinterpret_cast<char*>(head.data()), head.size());
+    Bytes const bytes(head.data(), static_cast<std::size_t>(in.gcount()));
+    return starts_with(bytes, kExr) || starts_with(bytes, kHdr) || starts_with(bytes, kPfm) ||
+           starts_with(bytes, kGrayPfm);
 }
 
 }  // namespace nephroid

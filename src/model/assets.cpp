@@ -1,26 +1,16 @@
 #include "model/assets.h"
 
-#include "image/read.h"
+#include "measured_tables.h"
 #include "scene/fields.h"
 #include "scene/match.h"
 #include "spectrum/color.h"
 
 #include <functional>
+#include <map>
 
 namespace nephroid {
 
 namespace {
-
-std::optional<Encoding> encoding_of(Scene const& scene, ImageFile const& file) {
-    if (file.encoding.empty()) return std::nullopt;
-    if (file.encoding == "linear") return Encoding::linear();
-    if (file.encoding == "sRGB") return Encoding::srgb();
-    if (file.encoding.rfind("gamma ", 0) == 0) {
-        float const g = std::strtof(file.encoding.c_str() + 6, nullptr);
-        if (g > 0.0f && std::isfinite(g)) return Encoding::power(g);
-    }
-    scene.fail(file.where, "unknown encoding \"" + file.encoding + "\"; use linear, sRGB or gamma <number>");
-}
 
 /// A table that ends within the visible range, kept at its end values: an index of refraction of 0 is none.
 Spd with_ends_kept(Spd spd) {
@@ -85,20 +75,10 @@ bool is_oriented(M const& m) {
 
 }  // namespace
 
-Assets::Assets(Scene const& scene) : scene_(&scene) {
+Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
     Spd const white = RgbIlluminantSpd{{1, 1, 1}};
     neutral_ = spectra_.compile(white, SpectrumRole::Illuminant)
                    .scaled(static_cast<float>(1.0 / photometric(white)));
-    for (ImageFile const& file : scene.images) {
-        auto const encoding = encoding_of(scene, file);
-        try {
-            Image image = read_image(file.path, encoding);
-            sanitize(image);
-            pyramids_.emplace_back(std::move(image));
-        } catch (Error const& e) {
-            throw Error(e.kind(), scene.locate(file.where) + ": " + e.what());
-        }
-    }
     for (Texture const& texture : scene.textures) {
         TextureData d;
         auto const mapped = [&](TextureMapping const& mapping) {
@@ -130,10 +110,17 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
                     mapped(t.mapping);
                 }
             },
-            [](ScaleTexture const&) {}, [](MixTexture const&) {});
+            [](ScaleTexture const&) {}, [](MixTexture const&) {},
+            [&](DirectionMixTexture const& t) { d.direction = normalize(t.dir); },
+            [&](BilerpTexture const& t) { mapped(t.mapping); },
+            [&](DotsTexture const& t) { mapped(t.mapping); },
+            [&](auto const& noise) {
+                d.mapping = mapping_transform(scene, texture.where, noise.world_to_texture);
+            });
         textures_.push_back(d);
     }
     materials_.resize(scene.materials.size());
+    std::map<std::string, std::shared_ptr<MeasuredTables const>> measured;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         Material const& material = scene.materials[i];
         MaterialData& d = materials_[i];
@@ -145,6 +132,15 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
             }
         };
         if (Spd const* const eta = index_of(material.kind)) d.eta = compiled(with_ends_kept(*eta));
+        if (auto const* const m = std::get_if<MeasuredMaterial>(&material.kind)) {
+            auto& tables = measured[m->file.path];
+            try {
+                if (!tables) tables = std::make_shared<MeasuredTables const>(m->file.path);
+            } catch (Error const& e) {
+                throw Error(e.kind(), scene.locate(m->file.where) + ": " + e.what());
+            }
+            d.measured = tables;
+        }
         if (Interior const* const inside = interior_of(material.kind)) {
             d.absorption = compiled(with_ends_kept(inside->absorption));
             d.priority = inside->priority;
@@ -179,12 +175,6 @@ Assets::Assets(Scene const& scene) : scene_(&scene) {
         return d;
     };
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) look(MaterialId{i});
-}
-
-std::size_t Assets::image_bytes() const {
-    std::size_t n = 0;
-    for (Pyramid const& p : pyramids_) n += p.bytes();
-    return n;
 }
 
 }  // namespace nephroid

@@ -3,6 +3,7 @@
 
 #include "model/assets.h"
 #include "model/bsdf.h"
+#include "model/material.h"
 #include "model/texture.h"
 
 namespace nephroid {
@@ -25,8 +26,7 @@ struct MaterialPoint {
     }
     /// Microfacets of a roughness.
     [[nodiscard]] Microfacets facets(Roughness const& r) const;
-    /// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.
-    [[nodiscard]] Spectrum index(RuntimeSpectrum const& eta) const;
+    [[nodiscard]] Spectrum index(RuntimeSpectrum const& eta) const { return index_lanes(eta, lambda); }
     /// The lanes' indices differ.
     [[nodiscard]] bool disperses(RuntimeSpectrum const& eta) const {
         return !lambda.is_rgb() && !eta.is_constant();

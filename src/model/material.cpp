@@ -58,11 +58,6 @@ Microfacets MaterialPoint::facets(Roughness const& r) const {
     return m;
 }
 
-Spectrum MaterialPoint::index(RuntimeSpectrum const& eta) const {
-    if (lambda.is_rgb()) return Spectrum(eta.rgb().y);
-    return eta.sample(lambda);
-}
-
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf) {
     MaterialPoint const p{assets, id, at, lambda};

@@ -2,43 +2,13 @@
 
 #include "scene/match.h"
 #include "spectrum/uplift.h"
+#include "texture_procedural.h"
 
 #include <cmath>
 
 namespace nephroid {
 
 namespace {
-
-struct MappedPoint {
-    Vec2 st{0, 0};
-    Vec2 dst_dx{0, 0}, dst_dy{0, 0};
-};
-
-MappedPoint map_point(TextureMapping const& mapping, Transform const& to_texture, TexturePoint const& at) {
-    return match(
-        mapping,
-        [&](UvMapping const& m) {
-            return MappedPoint{{m.su * at.uv.x + m.du, m.sv * at.uv.y + m.dv},
-                               {m.su * at.duv_dx.x, m.sv * at.duv_dx.y},
-                               {m.su * at.duv_dy.x, m.sv * at.duv_dy.y}};
-        },
-        [&](SphericalMapping const&) {
-            Vec3 const v = to_texture.point(at.p);
-            float const len = length(v);
-            float const theta = len > 0.0f ? std::acos(clamp(v.z / len, -1.0f, 1.0f)) : 0.0f;
-            float phi = std::atan2(v.y, v.x);
-            if (phi < 0.0f) phi += kTwoPi;
-            return MappedPoint{{theta * kInvPi, phi * kInvTwoPi}};
-        },
-        [&](CylindricalMapping const&) {
-            Vec3 const v = to_texture.point(at.p);
-            return MappedPoint{{(kPi + std::atan2(v.y, v.x)) * kInvTwoPi, v.z}};
-        },
-        [&](PlanarMapping const& m) {
-            Vec3 const v = to_texture.point(at.p);
-            return MappedPoint{{m.du + dot(v, m.v1), m.dv + dot(v, m.v2)}};
-        });
-}
 
 Wrap wrap_of(WrapMode w) {
     switch (w) {
@@ -67,16 +37,48 @@ TextureFilter filter_of(FilterMode f) {
     return TextureFilter::Bilinear;
 }
 
-/// Which of the two inputs a checkerboard shows (PBRT 4th ed., 10.4.4, without its filtering).
-bool checkerboard_first(CheckerboardTexture const& t, TextureData const& data, TexturePoint const& at) {
-    // Is floor(x) odd? In floats, which any coordinate fits.
-    auto const odd = [](float x) { return std::floor(x) - 2.0f * std::floor(0.5f * std::floor(x)) == 1.0f; };
-    if (t.dimension == 2) {
-        Vec2 const st = map_point(t.mapping, data.mapping, at).st;
-        return odd(st.x) == odd(st.y);
-    }
-    Vec3 const p = data.mapping.point(at.p);
-    return (odd(p.x) != odd(p.y)) == odd(p.z);
+/// A picture's (s, t) is down from the upper left corner, a texture's up from the lower left.
+MappedPoint picture_point(ImageTexture const& t, TextureData const& data, TexturePoint const& at) {
+    MappedPoint const m = map_point(t.mapping, data.mapping, at);
+    return {{m.st.x, 1.0f - m.st.y}, {m.dst_dx.x, -m.dst_dx.y}, {m.dst_dy.x, -m.dst_dy.y}};
+}
+
+/// (1 - w) a + w b, of which only what counts is evaluated. evaluate(id) gives a number or a spectrum.
+template <class Evaluate>
+auto blend(float w, TextureId a, TextureId b, Evaluate const& evaluate) {
+    if (w == 0.0f) return evaluate(a);
+    if (w == 1.0f) return evaluate(b);
+    return evaluate(a) * (1.0f - w) + evaluate(b) * w;
+}
+
+/// The kinds that are made of others do the same with numbers and with spectra. What is left is for `leaf`.
+template <class Value, class Evaluate, class Leaf>
+Value evaluate_kind(TextureKind const& kind, TextureData const& data, TexturePoint const& at,
+                    Evaluate const& evaluate, Leaf const& leaf, Assets const& assets) {
+    return match(
+        kind,
+        [&](CheckerboardTexture const& t) {
+            return blend(checkerboard_second(t, data.mapping, at), t.tex1, t.tex2, evaluate);
+        },
+        [&](ScaleTexture const& t) -> Value {
+            float const s = evaluate_float(assets, t.scale, at);
+            return s == 0.0f ? Value{} : evaluate(t.tex) * s;
+        },
+        [&](MixTexture const& t) {
+            return blend(evaluate_float(assets, t.amount, at), t.tex1, t.tex2, evaluate);
+        },
+        [&](DirectionMixTexture const& t) {
+            return blend(min(abs_dot(at.n, data.direction), 1.0f), t.tex2, t.tex1, evaluate);
+        },
+        [&](BilerpTexture const& t) {
+            Vec2 const st = map_point(t.mapping, data.mapping, at).st;
+            return blend(st.y, t.v00, t.v01, evaluate) * (1.0f - st.x) +
+                   blend(st.y, t.v10, t.v11, evaluate) * st.x;
+        },
+        [&](DotsTexture const& t) {
+            return evaluate(inside_dot(map_point(t.mapping, data.mapping, at).st) ? t.inside : t.outside);
+        },
+        leaf);
 }
 
 }  // namespace
@@ -93,58 +95,43 @@ Spectrum rgb_to_spectrum(Vec3 rgb, SpectrumRole role, Wavelengths const& lambda)
 
 float evaluate_float(Assets const& assets, TextureId id, TexturePoint const& at) {
     TextureData const& data = assets.data(id);
-    return match(
-        assets.scene()[id].kind, [](ConstantFloatTexture const& t) { return t.value; },
-        [](ConstantSpectrumTexture const&) { return 0.0f; },
+    Overloads const leaf{
+        [](ConstantFloatTexture const& t) { return t.value; },
+        [](ConstantSpectrumTexture const&) { return 0.0f; }, [](MarbleTexture const&) { return 0.0f; },
         [&](ImageTexture const& t) {
-            MappedPoint m = map_point(t.mapping, data.mapping, at);
-            m.st.y = 1.0f - m.st.y;
-            float const v = t.scale * assets.pyramid(t.image).lookup(m.st, filter_of(t.filter),
-                                                                     wrap_of(t.wrap), m.dst_dx, m.dst_dy);
+            MappedPoint const m = picture_point(t, data, at);
+            float const v =
+                t.scale * assets.pyramid(t.image).lookup(m.st, filter_of(t.filter), wrap_of(t.wrap), m.dst_dx,
+                                                         m.dst_dy, t.max_anisotropy);
             return t.invert ? std::fmax(0.0f, 1.0f - v) : v;
         },
-        [&](CheckerboardTexture const& t) {
-            return evaluate_float(assets, checkerboard_first(t, data, at) ? t.tex1 : t.tex2, at);
-        },
-        [&](ScaleTexture const& t) {
-            float const s = evaluate_float(assets, t.scale, at);
-            return s == 0.0f ? 0.0f : s * evaluate_float(assets, t.tex, at);
-        },
-        [&](MixTexture const& t) {
-            float const a = evaluate_float(assets, t.amount, at);
-            float const x = a != 1.0f ? evaluate_float(assets, t.tex1, at) : 0.0f;
-            float const y = a != 0.0f ? evaluate_float(assets, t.tex2, at) : 0.0f;
-            return (1.0f - a) * x + a * y;
-        });
+        [&](auto const& noise) { return evaluate(noise, data.mapping, at); }};
+    return evaluate_kind<float>(
+        assets.scene()[id].kind, data, at, [&](TextureId other) { return evaluate_float(assets, other, at); },
+        leaf, assets);
 }
 
 Spectrum evaluate_spectrum(Assets const& assets, TextureId id, TexturePoint const& at,
                            Wavelengths const& lambda) {
     TextureData const& data = assets.data(id);
-    return match(
-        assets.scene()[id].kind, [](ConstantFloatTexture const& t) { return Spectrum(t.value); },
+    Overloads const leaf{
+        [](ConstantFloatTexture const& t) { return Spectrum(t.value); },
         [&](ConstantSpectrumTexture const&) { return data.spectrum.sample(lambda); },
+        [&](MarbleTexture const& t) {
+            return rgb_to_spectrum(evaluate(t, data.mapping, at), SpectrumRole::Albedo, lambda);
+        },
         [&](ImageTexture const& t) {
-            MappedPoint m = map_point(t.mapping, data.mapping, at);
-            m.st.y = 1.0f - m.st.y;
-            Vec3 rgb = t.scale * assets.pyramid(t.image).lookup_rgb(m.st, filter_of(t.filter),
-                                                                    wrap_of(t.wrap), m.dst_dx, m.dst_dy);
+            MappedPoint const m = picture_point(t, data, at);
+            Vec3 rgb =
+                t.scale * assets.pyramid(t.image).lookup_rgb(m.st, filter_of(t.filter), wrap_of(t.wrap),
+                                                             m.dst_dx, m.dst_dy, t.max_anisotropy);
             if (t.invert) rgb = Vec3{1.0f} - rgb;
             return rgb_to_spectrum(max(rgb, Vec3{0.0f}), t.role, lambda);
         },
-        [&](CheckerboardTexture const& t) {
-            return evaluate_spectrum(assets, checkerboard_first(t, data, at) ? t.tex1 : t.tex2, at, lambda);
-        },
-        [&](ScaleTexture const& t) {
-            float const s = evaluate_float(assets, t.scale, at);
-            return s == 0.0f ? Spectrum{} : s * evaluate_spectrum(assets, t.tex, at, lambda);
-        },
-        [&](MixTexture const& t) {
-            float const a = evaluate_float(assets, t.amount, at);
-            Spectrum const x = a != 1.0f ? evaluate_spectrum(assets, t.tex1, at, lambda) : Spectrum{};
-            Spectrum const y = a != 0.0f ? evaluate_spectrum(assets, t.tex2, at, lambda) : Spectrum{};
-            return x * (1.0f - a) + y * a;
-        });
+        [&](auto const& noise) { return Spectrum(evaluate(noise, data.mapping, at)); }};
+    return evaluate_kind<Spectrum>(
+        assets.scene()[id].kind, data, at,
+        [&](TextureId other) { return evaluate_spectrum(assets, other, at, lambda); }, leaf, assets);
 }
 
 }  // namespace nephroid

@@ -71,10 +71,12 @@ void Materials::make(Pending& pending) {
         type = p.string("type", "");
         if (type.empty()) p.fail("needs a \"string type\"");
     }
-    auto kind = kind_of(type, p, pending);
+    Material m{kind_of(type, p, pending), pending.name, pending.where, {}, {}};
+    bool const has_surface =
+        !std::holds_alternative<InterfaceMaterial>(m.kind) && !std::holds_alternative<MixMaterial>(m.kind);
+    if (has_surface) perturb_normals(p, m);
     p.note_unused();
-    context_.scene.materials[pending.id.value] =
-        Material{std::move(kind), pending.name, pending.where, {}, {}};
+    context_.scene.materials[pending.id.value] = std::move(m);
 }
 
 }  // namespace nephroid

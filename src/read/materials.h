@@ -43,13 +43,17 @@ class Materials {
     MaterialId reserve();
     void make(Pending& pending);
     MaterialKind kind_of(std::string const& type, Params& p, Pending const& pending);
-    MaterialKind diffuse(Params& p, float reflectance);
-    MaterialKind conductor(Params& p, std::string const& prefix);
     MaterialKind mix(Params& p, Pending const& pending);
     MaterialKind approximated(std::string const& type, Params& p);
-    Spd index(Params& p);
-    void note_rough(Params& p);
-    void note_displaced(Params& p);
+    TextureId albedo(Params& p, std::string_view name, std::optional<float> otherwise);
+    Spd index(Params& p, std::string const& name);
+    Roughness roughness(Params& p, std::string const& prefix);
+    Interior interior(Params& p);
+    ConductorMaterial conductor(Params& p, std::string const& prefix);
+    Coat coat(Params& p, std::string const& prefix);
+    PlasticMaterial plastic(Params& p);
+    MetallicRoughnessMaterial metallic_roughness(Params& p);
+    void perturb_normals(Params& p, Material& m);
 
     Context& context_;
     Textures& textures_;

@@ -136,7 +136,7 @@ Scene PbrtReader::finish() {
     }
     materials_.finish();
     finish_objects();
-    finish_media();
+    media_.finish();
     textures_.check_unused();
     if (sampler_seed_) context_.scene.settings.seed = static_cast<std::uint64_t>(*sampler_seed_);
     context_.finish_notes();

@@ -4,6 +4,7 @@
 #include "context.h"
 #include "lights.h"
 #include "materials.h"
+#include "media.h"
 #include "options.h"
 #include "param_parser.h"
 #include "shapes.h"
@@ -29,13 +30,14 @@ struct GraphicsState {
     bool reverse_orientation = false;
     FileColorSpace color_space = FileColorSpace::Srgb;
     MaterialId material;  // none: pbrt's default
+    std::string inside_medium;
     std::shared_ptr<AreaLight const> area_light;
     std::array<SharedParams, 5> attributes;
 };
 
 class PbrtReader {
   public:
-    PbrtReader() : textures_(context_), materials_(context_, textures_) {}
+    PbrtReader() : textures_(context_), materials_(context_, textures_), media_(context_) {}
 
     /// `path` is empty for text that is in no file.
     Scene read(std::string_view text, std::string shown, std::filesystem::path const& folder,
@@ -120,7 +122,6 @@ class PbrtReader {
     void reverse_orientation(Tokenizer&, SourceLocation);
     bool read_alpha(Params& p, Object& object);
     void finish_objects();
-    void finish_media();
 
     /// The directive's name in quotes, and its parameters, which stay valid as long as it runs.
     std::string type_of(Tokenizer& tokens, char const* directive) {
@@ -135,6 +136,7 @@ class PbrtReader {
     Context context_;
     Textures textures_;
     Materials materials_;
+    Media media_;
 
     GraphicsState state_;
     std::vector<Saved> saved_;
@@ -146,8 +148,6 @@ class PbrtReader {
     std::vector<PendingAlpha> alphas_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t included_files_ = 0, included_bytes_ = 0;
-    std::set<std::string, std::less<>> media_;
-    std::map<std::string, SourceLocation, std::less<>> media_used_;  // and where first
     std::optional<int> sampler_seed_;
 };
 

@@ -40,6 +40,7 @@ void PbrtReader::shape(Tokenizer& tokens, SourceLocation where) {
     if (object.light && group_ != GroupId{0})
         context_.note(where,
                       "an area light inside an object: each instance emits (pbrt would ignore the emission)");
+    if (!state_.inside_medium.empty()) media_.fill(group_, state_.inside_medium);
     context_.scene.groups[group_.value].objects.push_back(std::move(object));
 }
 
@@ -47,18 +48,15 @@ void PbrtReader::shape(Tokenizer& tokens, SourceLocation where) {
 bool PbrtReader::read_alpha(Params& p, Object& object) {
     auto const* alpha = p.find("alpha", {ParamType::Float, ParamType::Texture});
     if (!alpha) return true;
-    constexpr char const* kNote = "\"alpha\" is not rendered yet: the shape is opaque";
     if (alpha->type == ParamType::Texture) {
         // Textures may be defined later in the file: looked up at its end.
         alphas_.push_back({group_, context_.scene.groups[group_.value].objects.size(), *alpha});
-        context_.note(alpha->where, kNote);
         return true;
     }
     float const value = p.number("alpha", 1);
     if (value >= 1) return true;
     if (value <= 0 && !object.light) return false;
     object.alpha = textures_.constant(value, alpha->where);
-    context_.note(alpha->where, kNote);
     return true;
 }
 
@@ -108,61 +106,24 @@ void PbrtReader::texture(Tokenizer& tokens, SourceLocation where) {
 void PbrtReader::make_named_medium(Tokenizer& tokens, SourceLocation where) {
     auto const name = type_of(tokens, "MakeNamedMedium");
     auto p = params(tokens, "MakeNamedMedium", name, where, inherited(AttributeTarget::ForMedium));
-    if (p.string("type", "").empty()) p.fail("needs a \"string type\"");
-    // Those of all the kinds that pbrt-v4 has.
-    for (char const* known : {"preset",
-                              "sigma_a",
-                              "sigma_s",
-                              "scale",
-                              "g",
-                              "Le",
-                              "Lescale",
-                              "LeScale",
-                              "density",
-                              "temperature",
-                              "temperatureoffset",
-                              "temperaturecutoff",
-                              "temperaturescale",
-                              "nx",
-                              "ny",
-                              "nz",
-                              "p0",
-                              "p1",
-                              "wispiness",
-                              "frequency",
-                              "filename"})
-        p.find(known);
-    p.note_unused();
-    if (!media_.insert(name).second)
-        context_.fail(where, "medium \"" + shown(name) + "\" is already defined");
-    context_.note(where, "participating media are not rendered yet: empty space stands in");
+    media_.define(name, p);
 }
 
 void PbrtReader::medium_interface(Tokenizer& tokens, SourceLocation where) {
-    auto const inside = type_of(tokens, "MediumInterface");
-    auto outside = inside;
+    state_.inside_medium = type_of(tokens, "MediumInterface");
+    auto outside = state_.inside_medium;
     if (auto const token = tokens.next()) {
         if (token->kind == Token::Kind::String)
             outside = tokens.decode(*token);
         else
             tokens.unget(*token);
     }
-    for (auto const& name : {inside, outside})
-        if (!name.empty()) media_used_.try_emplace(name, where);
-    if (!inside.empty() || !outside.empty())
-        context_.note(where, "participating media are not rendered yet: empty space stands in");
+    for (auto const& name : {state_.inside_medium, outside})
+        if (!name.empty()) media_.use(name, where);
 }
 
 void PbrtReader::reverse_orientation(Tokenizer& /*tokens*/, SourceLocation /*where*/) {
     state_.reverse_orientation = !state_.reverse_orientation;
-}
-
-/// An unknown name changes nothing as long as media are not rendered, but is a slip all the same.
-void PbrtReader::finish_media() {
-    for (auto const& [name, where] : media_used_)
-        if (!media_.contains(name))
-            context_.note(where, "no medium \"" + shown(name) + "\" is defined" +
-                                     did_you_mean(name, {media_.begin(), media_.end()}));
 }
 
 void PbrtReader::finish_objects() {

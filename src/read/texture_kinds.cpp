@@ -4,6 +4,9 @@
 
 #include "number.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nephroid {
 
 namespace {
@@ -12,6 +15,21 @@ Mat4 inverse_of(Params const& p, Mat4 const& to_world) {
     auto const m = inverse(to_world);
     if (!m) p.fail("the current transform cannot be inverted");
     return *m;
+}
+
+/// Unit, in the world; 0 where it has no length.
+Vec3 to_world_direction(Mat4 const& to_world, Vec3 v) {
+    double w[3] = {};
+    double sum = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+        for (int k = 0; k < 3; ++k)
+            w[r] += to_world.m[r][static_cast<std::size_t>(k)] * static_cast<double>(v[k]);
+        sum += w[r] * w[r];
+    }
+    if (!(sum > 0)) return Vec3{0};
+    double const scale = 1 / std::sqrt(sum);
+    return {static_cast<float>(w[0] * scale), static_cast<float>(w[1] * scale),
+            static_cast<float>(w[2] * scale)};
 }
 
 TextureMapping mapping_2d(Params& p, Mat4 const& to_world) {
@@ -54,7 +72,8 @@ TextureKind Textures::image(Definition const& d, Params& p, SpectrumRole role) {
     constexpr std::array kFilters{FilterMode::Point, FilterMode::Bilinear, FilterMode::Trilinear,
                                   FilterMode::Ewa, FilterMode::Ewa};
     t.filter = kFilters[p.choice("filter", {"point", "bilinear", "trilinear", "ewa", "EWA"}, 1)];
-    p.number("maxanisotropy", 8);
+    t.max_anisotropy = p.number("maxanisotropy", 8);
+    if (!(t.max_anisotropy >= 1)) p.fail("\"maxanisotropy\" must be at least 1");
     auto const filename = p.string("filename", "");
     if (filename.empty()) p.fail("needs a \"string filename\"");
     auto const where = p.find("filename")->where;
@@ -62,86 +81,97 @@ TextureKind Textures::image(Definition const& d, Params& p, SpectrumRole role) {
     return t;
 }
 
-TextureKind Textures::kind_of(Definition const& d, Params& p, SpectrumRole role) {
-    if (d.kind == "imagemap") return image(d, p, role);
-    if (d.kind == "constant") {
-        if (!d.spectrum) return ConstantFloatTexture{p.number("value", 1)};
-        auto const* v = p.find("value", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody});
-        return ConstantSpectrumTexture{v ? spd_of(context_, *v, role) : Spd{ConstantSpd{1}}, role};
-    }
+/// Those made of other textures.
+TextureKind Textures::of_others(Definition const& d, Params& p, SpectrumRole role) {
+    // Not in initialiser lists: the order of the textures in the scene would be the compiler's.
     if (d.kind == "scale") {
-        // Not in an initialiser list: the order of the textures in the scene would be the compiler's.
         ScaleTexture t;
         t.tex = input(d, p, "tex", 1, role);
         t.scale = float_param(p, "scale", 1);
         return t;
     }
-    if (d.kind == "mix" || d.kind == "directionmix") {
+    if (d.kind == "mix") {
         MixTexture t;
         t.tex1 = input(d, p, "tex1", 0, role);
         t.tex2 = input(d, p, "tex2", 1, role);
-        if (d.kind == "mix") {
-            t.amount = float_param(p, "amount", 0.5f);
-        } else {
-            p.vector3("dir", {0, 1, 0});
-            t.amount = constant(0.5f, d.where);
-            p.note("is not rendered yet: an even mix stands in");
-        }
+        t.amount = float_param(p, "amount", 0.5f);
         return t;
     }
-    if (d.kind == "checkerboard") {
-        CheckerboardTexture t;
-        t.dimension = p.integer("dimension", 2);
-        if (t.dimension != 2 && t.dimension != 3) p.fail("\"dimension\" must be 2 or 3");
-        if (t.dimension == 2)
-            t.mapping = mapping_2d(p, d.to_world);
-        else
-            t.world_to_texture = inverse_of(p, d.to_world);
-        t.tex1 = input(d, p, "tex1", 1, role);
-        t.tex2 = input(d, p, "tex2", 0, role);
+    if (d.kind == "directionmix") {
+        DirectionMixTexture t;
+        t.tex1 = input(d, p, "tex1", 0, role);
+        t.tex2 = input(d, p, "tex2", 1, role);
+        t.dir = to_world_direction(d.to_world, p.vector3("dir", {0, 1, 0}));
+        if (t.dir == Vec3{0}) p.fail("\"dir\" is a direction without length");
         return t;
     }
-    return approximated(d, p, role);
-}
-
-TextureKind Textures::approximated(Definition const& d, Params& p, SpectrumRole role) {
-    auto const mix = [&](TextureId a, TextureId b) { return MixTexture{a, b, constant(0.5f, d.where)}; };
-    auto const flat = [&](float value) -> TextureKind {
-        if (d.spectrum) return ConstantSpectrumTexture{ConstantSpd{value}, role};
-        return ConstantFloatTexture{value};
-    };
     if (d.kind == "bilerp") {
-        p.note("is not rendered yet: the average of its corners stands in");
-        mapping_2d(p, d.to_world);
-        auto const v00 = input(d, p, "v00", 0, role);
-        auto const v01 = input(d, p, "v01", 1, role);
-        auto const v10 = input(d, p, "v10", 0, role);
-        auto const v11 = input(d, p, "v11", 1, role);
-        auto const low = add(mix(v00, v10), d.where);
-        return mix(low, add(mix(v01, v11), d.where));
+        BilerpTexture t;
+        t.mapping = mapping_2d(p, d.to_world);
+        t.v00 = input(d, p, "v00", 0, role);
+        t.v01 = input(d, p, "v01", 1, role);
+        t.v10 = input(d, p, "v10", 0, role);
+        t.v11 = input(d, p, "v11", 1, role);
+        return t;
     }
     if (d.kind == "dots") {
-        p.note("is not rendered yet: its \"outside\" stands in");
-        mapping_2d(p, d.to_world);
-        input(d, p, "inside", 1, role);
-        auto const outside = input(d, p, "outside", 0, role);
-        ScaleTexture t;
-        t.tex = outside;
-        t.scale = constant(1, d.where);
+        DotsTexture t;
+        t.mapping = mapping_2d(p, d.to_world);
+        // pbrt-v4 mixes the two up: "inside" is what lies around the dots. Scenes are made by what they look like there.
+        t.outside = input(d, p, "inside", 1, role);
+        t.inside = input(d, p, "outside", 0, role);
         return t;
     }
-    // Noise: about its mean over space.
-    struct Mean {
-        char const* kind;
-        float value;
+    CheckerboardTexture t;
+    t.dimension = p.integer("dimension", 2);
+    if (t.dimension != 2 && t.dimension != 3) p.fail("\"dimension\" must be 2 or 3");
+    if (t.dimension == 2)
+        t.mapping = mapping_2d(p, d.to_world);
+    else
+        t.world_to_texture = inverse_of(p, d.to_world);
+    t.tex1 = input(d, p, "tex1", 1, role);
+    t.tex2 = input(d, p, "tex2", 0, role);
+    return t;
+}
+
+/// Those made of Perlin's noise: in pbrt-v4 marble is always a spectrum, and the others are always floats.
+TextureKind Textures::of_noise(Definition const& d, Params& p) {
+    bool const marble = d.kind == "marble";
+    if (marble && !d.spectrum) p.fail("is a spectrum texture only; write \"spectrum\" for \"float\"");
+    if (!marble && d.spectrum)
+        p.fail("is a float texture only; make it one and let it be the \"amount\" of a spectrum \"mix\"");
+    Mat4 const world_to_texture = inverse_of(p, d.to_world);
+    if (d.kind == "windy") return WindyTexture{world_to_texture};
+    int const octaves = p.integer("octaves", 8);
+    if (octaves < 0 || octaves > kMaxOctaves)
+        p.fail("\"octaves\" must be 0 to " + std::to_string(kMaxOctaves));
+    float const roughness = p.number("roughness", 0.5f);
+    if (d.kind == "fbm") return FbmTexture{world_to_texture, octaves, roughness};
+    if (d.kind == "wrinkled") return WrinkledTexture{world_to_texture, octaves, roughness};
+    MarbleTexture t{world_to_texture, octaves, roughness};
+    t.scale = p.number("scale", 1);
+    t.variation = p.number("variation", 0.2f);
+    return t;
+}
+
+TextureKind Textures::kind_of(Definition const& d, Params& p, SpectrumRole role) {
+    auto const is = [&](std::initializer_list<std::string_view> kinds) {
+        return std::find(kinds.begin(), kinds.end(), d.kind) != kinds.end();
     };
-    for (auto const [kind, value] :
-         {Mean{"fbm", 0}, {"wrinkled", 0.5f}, {"windy", 0.1f}, {"marble", 0.5f}, {"ptex", 0.5f}})
-        if (d.kind == kind) {
-            p.note("is not rendered yet: a constant stands in");
-            p.ignore_all();
-            return flat(value);
-        }
+    if (d.kind == "imagemap") return image(d, p, role);
+    if (is({"scale", "mix", "directionmix", "bilerp", "dots", "checkerboard"})) return of_others(d, p, role);
+    if (is({"fbm", "wrinkled", "windy", "marble"})) return of_noise(d, p);
+    if (d.kind == "constant") {
+        if (!d.spectrum) return ConstantFloatTexture{p.number("value", 1)};
+        auto const* v = p.find("value", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody});
+        return ConstantSpectrumTexture{v ? spd_of(context_, *v, role) : Spd{ConstantSpd{1}}, role};
+    }
+    if (d.kind == "ptex") {
+        p.note("is not rendered: a constant 0.5 stands in");
+        p.ignore_all();
+        if (d.spectrum) return ConstantSpectrumTexture{ConstantSpd{0.5f}, role};
+        return ConstantFloatTexture{0.5f};
+    }
     p.fail("unknown kind of texture" +
            did_you_mean(d.kind, {"constant", "imagemap", "checkerboard", "scale", "mix", "directionmix",
                                  "bilerp", "dots", "fbm", "wrinkled", "windy", "marble", "ptex"}));

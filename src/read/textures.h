@@ -52,7 +52,8 @@ class Textures {
     TextureId make(Definition& d, SpectrumRole role);
     TextureKind kind_of(Definition const& d, Params& p, SpectrumRole role);
     TextureKind image(Definition const& d, Params& p, SpectrumRole role);
-    TextureKind approximated(Definition const& d, Params& p, SpectrumRole role);
+    TextureKind of_others(Definition const& d, Params& p, SpectrumRole role);
+    TextureKind of_noise(Definition const& d, Params& p);
     /// A parameter of a texture: of the same type as the texture itself.
     TextureId input(Definition const& d, Params& p, std::string_view name, float otherwise,
                     SpectrumRole role);

@@ -80,12 +80,18 @@ void check_texture(Check const& c, Texture const& texture) {
     auto const operand = [&](TextureId id) {
         c.require(id.valid(), "the texture is made of others but names none: name them");
     };
+    auto const noise = [&](auto const& t) {
+        check_finite(c, t, "the texture");
+        check_matrix(c, t.world_to_texture, "the texture's transform");
+        c.require(t.octaves >= 0 && t.octaves <= kMaxOctaves, "the texture's octaves must be 0 to 64");
+    };
     match(
         texture.kind, [&](ConstantFloatTexture const& t) { check_finite(c, t, "the texture"); },
         [&](ConstantSpectrumTexture const& t) { check_spd(c, t.value, "the texture"); },
         [&](ImageTexture const& t) {
             c.require(t.image.valid(), "the image texture names no picture: name one");
             check_finite(c, t.scale, "the texture's scale");
+            c.require(t.max_anisotropy >= 1, "the texture's maxanisotropy must be at least 1");
             check_mapping(c, t.mapping);
         },
         [&](CheckerboardTexture const& t) {
@@ -95,7 +101,23 @@ void check_texture(Check const& c, Texture const& texture) {
             operand(t.tex1), operand(t.tex2);
         },
         [&](ScaleTexture const& t) { operand(t.tex), operand(t.scale); },
-        [&](MixTexture const& t) { operand(t.tex1), operand(t.tex2), operand(t.amount); });
+        [&](MixTexture const& t) { operand(t.tex1), operand(t.tex2), operand(t.amount); },
+        [&](DirectionMixTexture const& t) {
+            operand(t.tex1), operand(t.tex2);
+            check_finite(c, t.dir, "the texture's direction");
+            c.require(t.dir != Vec3{0}, "the texture's direction has no length: give it one");
+        },
+        [&](BilerpTexture const& t) {
+            check_mapping(c, t.mapping);
+            operand(t.v00), operand(t.v01), operand(t.v10), operand(t.v11);
+        },
+        [&](DotsTexture const& t) {
+            check_mapping(c, t.mapping);
+            operand(t.inside), operand(t.outside);
+        },
+        [&](WindyTexture const& t) { check_matrix(c, t.world_to_texture, "the texture's transform"); },
+        [&](FbmTexture const& t) { noise(t); }, [&](WrinkledTexture const& t) { noise(t); },
+        [&](MarbleTexture const& t) { noise(t); });
 }
 
 void check_material(Check const& c, Material const& material) {

@@ -38,7 +38,17 @@ class Types {
             [&](MixTexture const& t) {
                 require(texture.where, t.amount, Type::Float, "the mix's amount");
                 return same(t.tex1, t.tex2, "the mix");
-            });
+            },
+            [&](DirectionMixTexture const& t) { return same(t.tex1, t.tex2, "the mix"); },
+            [&](BilerpTexture const& t) {
+                for (TextureId const other : {t.v01, t.v10, t.v11})
+                    require(texture.where, other, types_[t.v00.value], "each corner of the bilerp");
+                return types_[t.v00.value];
+            },
+            [&](DotsTexture const& t) { return same(t.outside, t.inside, "the pattern of dots"); },
+            [](FbmTexture const&) { return Type::Float; }, [](WrinkledTexture const&) { return Type::Float; },
+            [](WindyTexture const&) { return Type::Float; },
+            [](MarbleTexture const&) { return Type::Spectrum; });
     }
 
     Scene const& scene_;

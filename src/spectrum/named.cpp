@@ -41,6 +41,28 @@ double Sellmeier::index(double lambda_nm) const {
     return std::sqrt(1 + b1 * l2 / (l2 - c1) + b2 * l2 / (l2 - c2) + b3 * l2 / (l2 - c3));
 }
 
+double Cauchy::index(double lambda_nm) const {
+    double const l2 = lambda_nm * lambda_nm * 1e-6;
+    return a + b / l2 + c / (l2 * l2);
+}
+
+namespace {
+template <class Formula>
+std::optional<TabulatedSpd> each_nm(Formula const& formula) {
+    TabulatedSpd t;
+    for (float l = kLambdaMin; l <= kLambdaMax; l += 1.0f) {
+        double const n = formula.index(static_cast<double>(l));
+        if (!(n > 0) || !std::isfinite(n)) return std::nullopt;
+        t.lambda.push_back(l);
+        t.value.push_back(static_cast<float>(n));
+    }
+    return t;
+}
+}  // namespace
+
+std::optional<TabulatedSpd> tabulated(Sellmeier const& formula) { return each_nm(formula); }
+std::optional<TabulatedSpd> tabulated(Cauchy const& formula) { return each_nm(formula); }
+
 std::optional<Sellmeier> sellmeier_glass(std::string_view name) {
     for (Glass const& g : kGlasses)
         if (g.name == name) return g.formula;
@@ -63,16 +85,10 @@ std::vector<std::string> const& named_spectrum_names() {
 bool is_named_spectrum(std::string_view name) { return sellmeier_glass(name) || find(name); }
 
 std::optional<TabulatedSpd> named_spectrum(std::string_view name) {
-    TabulatedSpd t;
-    if (auto const glass = sellmeier_glass(name)) {
-        for (float l = kLambdaMin; l <= kLambdaMax; l += 1.0f) {
-            t.lambda.push_back(l);
-            t.value.push_back(static_cast<float>(glass->index(static_cast<double>(l))));
-        }
-        return t;
-    }
+    if (auto const glass = sellmeier_glass(name)) return tabulated(*glass);
     auto const data = find(name);
     if (!data) return std::nullopt;
+    TabulatedSpd t;
     for (std::size_t i = 0; i + 1 < data->pairs.size(); i += 2) {
         t.lambda.push_back(static_cast<float>(data->pairs[i]));
         t.value.push_back(static_cast<float>(data->pairs[i + 1]));

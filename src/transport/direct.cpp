@@ -12,7 +12,7 @@ Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, Aov
                                   : sample_lights ? EmissionWeight::SpecularOnly
                                                   : EmissionWeight::All;
     Spectrum radiance;
-    Walk walk = Walk::from_camera(ray, c.lambda);
+    Walk walk = Walk::from_camera(c, ray);
     bool scattered = false;
     Vertex v;
     for (;;) {

@@ -8,7 +8,7 @@ Spectrum radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSa
                                   : p.sample_bsdf_mis ? EmissionWeight::Mis
                                                       : EmissionWeight::SpecularOnly;
     Spectrum radiance;
-    Walk walk = Walk::from_camera(ray, c.lambda);
+    Walk walk = Walk::from_camera(c, ray);
     Vertex v;
     for (;;) {
         // The ray finds a surface, and what that surface (or the environment) emits.

@@ -71,6 +71,8 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
     if (crop_[0] >= crop_[1] || crop_[2] >= crop_[3])
         throw Error(ErrorKind::Input,
                     "the crop window holds no pixel of the picture; give x0,y0,x1,y1 inside the resolution");
+    RayStats uncounted;
+    if (world.encloses()) interiors_ = interiors_at(world, camera_.position(), uncounted);
 }
 
 Film RenderJob::make_film() const {

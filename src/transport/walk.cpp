@@ -1,5 +1,6 @@
 #include "walk.h"
 
+#include "model/shading_normal.h"
 #include "spectrum/color.h"
 
 #include <algorithm>
@@ -19,19 +20,66 @@ float emission_weight(Walk const& walk, EmissionWeight how, float light_pdf) {
 /// Surfaces that only separate media are passed through; more of them than this on one line is a broken scene.
 constexpr int kMaxInterfaces = 4096;
 
+/// The pixel's cone cut by the surface's tangent plane: an ellipse, longer where the ray grazes it ("ray cones", Akenine-Moeller
+/// et al. 2021). The cone is as wide as the path is long, whatever it was reflected by. Fixed by the camera, not by the number of
+/// passes, which no pass knows: an eighth of a pixel, what pbrt-v4 comes down to at 64 samples. The passes average over the rest.
 TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit const& hit) {
     TexturePoint at;
     at.p = hit.s.p;
     at.uv = hit.s.uv;
-    // An isotropic footprint: the pixel's cone, as wide as it is long, seen in (u, v). Fixed by the camera, not by the pass.
-    float const width = c.job.camera().pixel_spread() * (walk.cone + hit.t);
-    float const lu = length(hit.s.dpdu);
-    float const lv = length(hit.s.dpdv);
-    if (width > 0.0f && lu > 0.0f && lv > 0.0f) {
-        at.duv_dx = {width / lu, 0};
-        at.duv_dy = {0, width / lv};
-    }
+    at.n = hit.s.ng;
+    constexpr float kShareOfPixel = 0.125f;
+    float const width = kShareOfPixel * c.job.camera().pixel_spread() * (walk.cone + hit.t);
+    if (!(width > 0.0f)) return at;
+    // Axes in the tangent plane, across the plane of incidence and in it.
+    Vec3 const d = walk.ray.d;
+    Vec3 const n = hit.s.ng;
+    constexpr float kGrazing = 1e-3f;  // an ellipse longer than a thousand pixels is no footprint any more
+    float const cosine = max(abs_dot(n, d), kGrazing);
+    Vec3 across = cross(n, d);
+    float const len = length(across);
+    across = len > 1e-6f ? across / len : frame_from_z(n).x;
+    at.dpdx = across * width;
+    at.dpdy = cross(n, across) * (width / cosine);
+    // (du, dv) with du dp/du + dv dp/dv nearest to the axis: the normal equations (PBRT 4th ed., eq. 10.6).
+    Vec3 const u = hit.s.dpdu, v = hit.s.dpdv;
+    float const uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
+    float const det = difference_of_products(uu, vv, uv, uv);
+    if (!(det > 0.0f)) return at;
+    auto const solve = [&](Vec3 axis) {
+        float const a = dot(u, axis), b = dot(v, axis);
+        Vec2 const r{difference_of_products(vv, a, uv, b) / det, difference_of_products(uu, b, uv, a) / det};
+        return std::isfinite(r.x) && std::isfinite(r.y) ? r : Vec2{0, 0};
+    };
+    at.duv_dx = solve(at.dpdx);
+    at.duv_dy = solve(at.dpdy);
     return at;
+}
+
+/// What Beer's law leaves of light over a distance in the medium that the path is in.
+Spectrum transmittance(PathContext const& c, Interiors const& interiors, float distance) {
+    Spectrum const sigma = interiors.absorption(c.world.assets(), c.lambda);
+    Spectrum left;
+    // exp(-0 * infinity) is 1.
+    for (int i = 0; i < 4; ++i) left.set(i, sigma[i] > 0.0f ? std::exp(-sigma[i] * distance) : 1.0f);
+    return left;
+}
+
+/// A boundary inside a body that outranks it.
+bool is_hidden(PathContext const& c, Walk const& walk, Vertex const& v) {
+    Assets const& assets = c.world.assets();
+    return assets.data(v.material).encloses &&
+           walk.interiors.hides(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
+}
+
+/// The bodies that light along w is in, after leaving v.
+Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w) {
+    Interiors in = walk.interiors;
+    float const came = dot(walk.ray.d, v.hit.s.ng), goes = dot(w, v.hit.s.ng);
+    bool const crossed = came * goes > 0.0f;
+    if (crossed && v.material.valid() && c.world.assets().data(v.material).encloses)
+        in.cross(v.material, goes < 0.0f);
+    return in;
 }
 
 /// The hero stands for all four lanes from here on (Wilkie et al. 2014).
@@ -49,7 +97,9 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
     Vec3 const origin = walk.ray.o;  // before any surface was passed: portals are seen from here
     double mix = -1;                 // what decides at mixes; not drawn yet
     for (int i = 0; i < kMaxInterfaces; ++i) {
-        if (!c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit)) {
+        bool const found = c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit);
+        if (!walk.interiors.empty()) walk.beta *= transmittance(c, walk.interiors, found ? hit.t : kInfinity);
+        if (!found) {
             for (LightId const light : c.world.infinite_lights()) {
                 float const pdf =
                     walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
@@ -77,6 +127,14 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
             Assets const& assets = c.world.assets();
             v.material = resolve_mix(assets, v.material, texture_point(c, walk, hit), mix);
         }
+        if (c.world.encloses() && v.material.valid() && is_hidden(c, walk, v)) {
+            walk.interiors.cross(v.material, dot(walk.ray.d, hit.s.ng) < 0.0f);
+            // Shadow rays end at such a boundary: what comes now could not be sampled.
+            walk.specular = true;
+            walk.ray = hit.spawn(walk.ray.d);
+            walk.cone += hit.t;
+            continue;
+        }
         if (hit.passage == Passage::Solid) return true;
         bool const passes = std::holds_alternative<InterfaceMaterial>(c.world.scene()[v.material].kind);
         if (!passes) return true;
@@ -86,14 +144,19 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
     return false;
 }
 
-bool prepare(PathContext& c, Walk const& walk, Vertex& v) {
+bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     if (!v.material.valid()) return false;
     Assets const& assets = c.world.assets();
+    MaterialData const& data = assets.data(v.material);
     TexturePoint at;
-    if (assets.data(v.material).textured) at = texture_point(c, walk, v.hit);
+    if (data.textured) at = texture_point(c, walk, v.hit);
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
-    v.frame = frame_from_z(v.hit.s.ns);
+    if (data.encloses)
+        walk.interiors.immerse(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f, c.lambda, v.bsdf);
+    if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
+    v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
+    if (traits(v.bsdf).hero_only) keep_hero(walk);
     return true;
 }
 
@@ -113,7 +176,10 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
     float const w = light->delta || !mis
                         ? 1.0f
                         : power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
-    return f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
+    Spectrum const direct = f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
+    if (!c.world.encloses()) return direct;
+    float const distance = light->at_infinity ? kInfinity : length(light->p - v.hit.s.p);
+    return direct * transmittance(c, beyond(c, walk, v, light->wi), distance);
 }
 
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
@@ -129,7 +195,9 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
     if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
     walk.cone += v.hit.t;
-    walk.ray = v.hit.spawn(normalize(v.frame.from_local(s.wi)));
+    Vec3 const wi = normalize(v.frame.from_local(s.wi));
+    if (c.world.encloses()) walk.interiors = beyond(c, walk, v, wi);
+    walk.ray = v.hit.spawn(wi);
     ++walk.vertex;
     return true;
 }

@@ -10,6 +10,7 @@
 #include "model/material.h"
 #include "sampling/path_sampler.h"
 #include "sampling/warp.h"
+#include "transport/interiors.h"
 #include "transport/render_pass.h"
 #include "world/world.h"
 
@@ -49,13 +50,15 @@ struct Walk {
     bool specular = true;      // … or a delta (or the camera): then lights could not be sampled there
     float eta_scale = 1;       // product of eta^2: radiance squeezed into glass is no reason to end a path
     bool hero_only = false;
-    float cone = 0;  // distance travelled: the pixel's footprint grows with it
+    float cone = 0;       // distance travelled: the pixel's footprint grows with it
+    Interiors interiors;  // kept only in a world that encloses something
 
-    static Walk from_camera(Ray const& ray, Wavelengths const& lambda) {
+    static Walk from_camera(PathContext const& c, Ray const& ray) {
         Walk w;
         w.ray = ray;
         // In rgb mode the fourth lane carries nothing.
-        w.beta = lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
+        w.beta = c.lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
+        if (c.world.encloses()) w.interiors = c.job.camera_interiors();
         w.from.p = ray.o;
         return w;
     }
@@ -87,8 +90,8 @@ enum class EmissionWeight : std::uint8_t {
 /// reached, of the environment) to `radiance`. False when the ray left the scene.
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance);
 
-/// Scattering at v.hit; false when there is none (no material).
-bool prepare(PathContext& c, Walk const& walk, Vertex& v);
+/// Scattering at v.hit; false when there is none (no material). May end the path's other wavelengths.
+bool prepare(PathContext& c, Walk& walk, Vertex& v);
 
 /// One light sampled from the vertex: f |cos| Li / pdf, weighed by MIS unless `mis` is off. Without beta.
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis);

@@ -31,7 +31,7 @@ Spectrum trace(WhittedIntegrator const& p, PathContext& c, Walk walk, int depth,
 }  // namespace
 
 Spectrum radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
-    return trace(p, c, Walk::from_camera(ray, c.lambda), 0, 1, aov);
+    return trace(p, c, Walk::from_camera(c, ray), 0, 1, aov);
 }
 
 }  // namespace nephroid

@@ -199,7 +199,7 @@ World compile(Scene scene_in) {
     Scene& scene = *w.scene_;
     bake(scene);
     w.assets_ = std::make_unique<Assets>(scene);
-    w.caster_ = std::make_unique<RayCaster>();
+    w.caster_ = std::make_unique<RayCaster>(*w.assets_);
     w.lights_ = std::make_unique<LightTable>();
     w.parts_ = std::make_unique<WorldParts>();
 
@@ -207,6 +207,9 @@ World compile(Scene scene_in) {
     b.records();
     b.build_groups();
     b.flatten(GroupId{0}, Mat4{});
+    for (Group const& group : scene.groups)
+        for (Object const& o : group.objects)
+            w.encloses_ = w.encloses_ || (o.material.valid() && w.assets_->data(o.material).encloses);
     w.counts_.instances = w.parts_->instances.size();
     w.caster_->finish(w.parts_->instances, b.group_of_instance);
     w.bounds_ = w.caster_->bounds();

@@ -27,6 +27,16 @@ inline Spectrum emission_at(Assets const& assets, Emitter const& e, Vec3 p, Vec2
     return radiance;
 }
 
+/// The share of its emission that an emitting point sends out, of light that is sampled there. A ray that finds the surface by
+/// itself has passed its alpha already.
+inline float opacity(Assets const& assets, Emitter const& e, Vec3 p, Vec2 uv) {
+    if (!e.alpha.valid() || e.unseen) return 1.0f;
+    TexturePoint at;
+    at.p = p;
+    at.uv = uv;
+    return clamp(evaluate_float(assets, e.alpha, at), 0.0f, 1.0f);
+}
+
 /// How bright it is there relative to Emitter::radiance, for choosing places.
 inline float emission_level(Assets const& assets, Emitter const& e, Vec3 p, Vec2 uv) {
     Vec3 rgb{1, 1, 1};
@@ -40,7 +50,7 @@ inline float emission_level(Assets const& assets, Emitter const& e, Vec3 p, Vec2
         rgb = max(Vec3{s[0], s[1], s[2]}, Vec3{0.0f});
     }
     // The mean of the channels, not luminance: a blue light is light.
-    float const level = (rgb.x + rgb.y + rgb.z) / 3.0f;
+    float const level = (rgb.x + rgb.y + rgb.z) / 3.0f * opacity(assets, e, p, uv);
     return std::isfinite(level) ? level : 0.0f;
 }
 

@@ -425,6 +425,9 @@ std::uint32_t add_emitter(Scene const& scene, Assets& assets, LightTable& lights
     AreaLight const& l = *r.object->light;
     Emitter e;
     e.light = &l;
+    e.alpha = r.object->alpha;
+    e.cut = e.alpha.valid() && !assets.data(e.alpha).flat;
+    e.unseen = e.alpha.valid() && assets.data(e.alpha).flat && !(assets.data(e.alpha).value > 0.0f);
     // Lumens of a surface of luminance 1: pi * area * sides (* the picture's mean luminance; pbrt-v4's, over the picture).
     double area = 0;
     double content = 0;

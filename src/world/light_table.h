@@ -14,9 +14,12 @@ namespace nephroid {
 struct Emitter {
     RuntimeSpectrum radiance;  // scale applied
     AreaLight const* light = nullptr;
+    TextureId alpha;      // of the surface; none = it is there everywhere
+    bool cut = false;     // alpha varies
+    bool unseen = false;  // alpha is 0: it is not there, but shines (pbrt), and only light sampling finds it
 
     /// The emission depends on the place.
-    [[nodiscard]] bool textured() const { return light->image.valid() || light->texture.valid(); }
+    [[nodiscard]] bool textured() const { return light->image.valid() || light->texture.valid() || cut; }
 };
 
 /// How an entry is sampled.

@@ -1,5 +1,7 @@
 #include "ray_caster.h"
 
+#include "model/texture.h"
+#include "sampling/hash.h"
 #include "scene/match.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -11,17 +13,52 @@
 #endif
 
 #include <atomic>
+#include <bit>
 #include <limits>
 #include <string>
 
 namespace nephroid {
 
+/// What a hit is completed with while Embree is still looking.
+struct CastScene {
+    Assets const* assets;
+    std::vector<InstanceRecord> const* instances = nullptr;
+    std::uint32_t first_instance = 0;
+
+    [[nodiscard]] InstanceRecord const* instance(std::uint32_t geometry) const {
+        return &(*instances)[geometry - first_instance];
+    }
+};
+
 namespace {
 
-/// What the callbacks of an analytic shape need.
+/// What callbacks need: of an analytic shape, or of any that an alpha texture cuts.
 struct UserGeometry {
     ObjectRecord const* record;
+    CastScene const* scene;
 };
+
+/// Is the surface there at a hit, where its alpha is between 0 and 1 by chance? The chance is a hash of the direction and of the place
+/// on the surface: another ray has another, the same ray always the same, and a scaled scene keeps them. Looked up at its finest:
+/// what a ray hits must not depend on what it is for.
+bool covers(UserGeometry const& g, std::uint32_t geometry, std::uint32_t instance, ShapeHit const& hit,
+            Vec3 local, Vec3 direction) {
+    TextureId const alpha = g.record->object->alpha;
+    SurfacePoint s;
+    surface_at(*g.record, instance == RTC_INVALID_GEOMETRY_ID ? nullptr : g.scene->instance(instance), hit,
+               local, true, s);
+    TexturePoint at;
+    at.p = s.p;
+    at.uv = s.uv;
+    at.n = s.ng;
+    float const opacity = evaluate_float(*g.scene->assets, alpha, at);
+    if (opacity >= 1.0f) return true;
+    if (!(opacity > 0.0f)) return false;
+    auto const bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    std::uint64_t const key = hash_keys(bits(direction.x), bits(direction.y), bits(direction.z), bits(s.uv.x),
+                                        bits(s.uv.y), hit.part, geometry, instance);
+    return to_unit_double(key) < static_cast<double>(opacity);
+}
 
 Ray3d to_shape_space(UserGeometry const& g, RTCRay const& ray) {
     Ray3d r{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}};
@@ -40,21 +77,40 @@ struct LocalHit : ShapeHit {
     Vec3 p;
 };
 
-std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, RTCRay const& ray) {
+std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, std::uint32_t geometry,
+                                       std::uint32_t instance, RTCRay const& ray) {
     Ray3d const local = to_shape_space(g, ray);
-    double const t_min = static_cast<double>(ray.tnear);
+    double t_min = static_cast<double>(ray.tnear);
     double const t_max = static_cast<double>(ray.tfar);
     return match(
         g.record->object->shape, [](TriangleMesh const&) -> std::optional<LocalHit> { return std::nullopt; },
         [](LoopSubdivision const&) -> std::optional<LocalHit> { return std::nullopt; },
         [&](auto const& shape) -> std::optional<LocalHit> {
-            auto const hit = intersect(shape, prim, local, t_min, t_max);
-            if (!hit) return std::nullopt;
-            return LocalHit{*hit,
-                            {static_cast<float>(local.o[0] + hit->t * local.d[0]),
+            // Where alpha lets the ray through, the shape may be met once more.
+            constexpr int kMostHits = 8;
+            for (int i = 0; i < kMostHits; ++i) {
+                auto const hit = intersect(shape, prim, local, t_min, t_max);
+                if (!hit) return std::nullopt;
+                Vec3 const p{static_cast<float>(local.o[0] + hit->t * local.d[0]),
                              static_cast<float>(local.o[1] + hit->t * local.d[1]),
-                             static_cast<float>(local.o[2] + hit->t * local.d[2])}};
+                             static_cast<float>(local.o[2] + hit->t * local.d[2])};
+                if (!g.record->object->alpha.valid() ||
+                    covers(g, geometry, instance, *hit, p, {ray.dir_x, ray.dir_y, ray.dir_z}))
+                    return LocalHit{*hit, p};
+                t_min = hit->t;
+            }
+            return std::nullopt;
         });
+}
+
+/// For triangles that alpha cuts; Embree says the rest.
+void filter_callback(RTCFilterFunctionNArguments const* args) {
+    if (args->N != 1 || args->valid[0] != -1) return;
+    auto const& ray = *reinterpret_cast<RTCRay const*>(args->ray);
+    auto const& hit = *reinterpret_cast<RTCHit const*>(args->hit);
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    ShapeHit const at{static_cast<double>(ray.tfar), hit.u, hit.v, hit.primID};
+    if (!covers(g, hit.geomID, hit.instID[0], at, {}, {ray.dir_x, ray.dir_y, ray.dir_z})) args->valid[0] = 0;
 }
 
 // Only single rays are traced, so N is 1 and the packet types are the single-ray types.
@@ -62,7 +118,7 @@ void intersect_callback(RTCIntersectFunctionNArguments const* args) {
     if (args->N != 1 || args->valid[0] != -1) return;
     auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    auto const hit = intersect_user(g, args->primID, rayhit->ray);
+    auto const hit = intersect_user(g, args->primID, args->geomID, args->context->instID[0], rayhit->ray);
     if (!hit) return;
     rayhit->ray.tfar = static_cast<float>(hit->t);
     rayhit->hit.u = hit->u;
@@ -79,7 +135,8 @@ void occluded_callback(RTCOccludedFunctionNArguments const* args) {
     if (args->N != 1 || args->valid[0] != -1) return;
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    if (intersect_user(g, args->primID, *ray)) ray->tfar = -std::numeric_limits<float>::infinity();
+    if (intersect_user(g, args->primID, args->geomID, args->context->instID[0], *ray))
+        ray->tfar = -std::numeric_limits<float>::infinity();
 }
 
 /// Group-space bounds of one primitive of an analytic shape, a little wider than computed: the shape is exact, its box rounds.
@@ -115,8 +172,13 @@ struct RayCaster::Impl {
     RTCDevice device = nullptr;
     std::vector<RTCScene> groups;
     std::vector<std::unique_ptr<UserGeometry>> users;
+    CastScene scene{};
     std::atomic<std::int64_t> bytes{0};
 
+    UserGeometry* add_user(ObjectRecord const& record) {
+        users.push_back(std::make_unique<UserGeometry>(UserGeometry{&record, &scene}));
+        return users.back().get();
+    }
     void check(char const* doing) const {
         RTCError const e = rtcGetDeviceError(device);
         if (e == RTC_ERROR_NONE) return;
@@ -128,7 +190,8 @@ struct RayCaster::Impl {
     }
 };
 
-RayCaster::RayCaster() : impl_(std::make_unique<Impl>()) {
+RayCaster::RayCaster(Assets const& assets) : impl_(std::make_unique<Impl>()) {
+    impl_->scene.assets = &assets;
     // A fixed instruction set: Embree's hits differ in the last bits between them, and pictures must not (docs/conventions.md).
     impl_->device = rtcNewDevice("isa=avx2");
     if (!impl_->device) throw Error(ErrorKind::Limit, "Embree cannot start on this machine");
@@ -163,12 +226,16 @@ std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std
                                        0, sizeof(Vec3), mesh->p.size());
             rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                        mesh->triangles.data(), 0, sizeof(Vec3i), mesh->triangles.size());
+            if (record.object->alpha.valid()) {
+                rtcSetGeometryUserData(geometry, impl_->add_user(record));
+                rtcSetGeometryIntersectFilterFunction(geometry, filter_callback);
+                rtcSetGeometryOccludedFilterFunction(geometry, filter_callback);
+            }
         } else {
             geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
-            impl_->users.push_back(std::make_unique<UserGeometry>(UserGeometry{&record}));
             rtcSetGeometryUserPrimitiveCount(
                 geometry, match(record.object->shape, [](auto const& s) { return primitive_count(s); }));
-            rtcSetGeometryUserData(geometry, impl_->users.back().get());
+            rtcSetGeometryUserData(geometry, impl_->add_user(record));
             rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
             rtcSetGeometryIntersectFunction(geometry, intersect_callback);
             rtcSetGeometryOccludedFunction(geometry, occluded_callback);
@@ -192,6 +259,8 @@ void RayCaster::finish(std::vector<InstanceRecord> const& instances,
                        std::vector<std::uint32_t> const& group_of_instance) {
     RTCScene const root = impl_->groups.front();
     unsigned const id = first_instance_;  // after the world's own objects
+    impl_->scene.instances = &instances;
+    impl_->scene.first_instance = first_instance_;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         RTCGeometry const geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, impl_->groups[group_of_instance[i]]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/bounds.h"
+#include "model/assets.h"
 #include "records.h"
 
 #include <cmath>
@@ -25,7 +26,8 @@ class RayCaster {
     static constexpr std::uint32_t seen(Passage p) { return 1u << static_cast<unsigned>(p); }
     static constexpr std::uint32_t kAll = 7;
 
-    RayCaster();
+    /// `assets`, for surfaces that alpha textures cut, must stay where they are.
+    explicit RayCaster(Assets const& assets);
     ~RayCaster();
     RayCaster(RayCaster const&) = delete;
     RayCaster& operator=(RayCaster const&) = delete;
@@ -33,7 +35,8 @@ class RayCaster {
     /// A group's own objects; returns its number. Geometry ids are the objects' positions in `records`. The records and
     /// their objects must stay where they are.
     std::uint32_t add_group(std::vector<ObjectRecord> const& records, std::size_t first, std::size_t count);
-    /// Puts group 0's objects and the given appearances of other groups into the scene that is traced.
+    /// Puts group 0's objects and the given appearances of other groups into the scene that is traced. The instances must stay
+    /// where they are.
     void finish(std::vector<InstanceRecord> const& instances,
                 std::vector<std::uint32_t> const& group_of_instance);
 

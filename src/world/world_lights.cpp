@@ -59,7 +59,9 @@ std::optional<LightSample> World::sample_area_light(LightEntry const& entry, flo
     s.pdf *= pmf;
     Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
     if (emitter.light->two_sided || dot(s.n, s.wi) < 0.0f)
-        s.radiance = emission_at(*assets_, emitter, s.p, s.uv, lambda);
+        s.radiance =
+            emission_at(*assets_, emitter, s.p, s.uv, lambda) * opacity(*assets_, emitter, s.p, s.uv);
+    s.delta = emitter.unseen;  // no ray finds it
     return result;
 }
 
@@ -113,7 +115,8 @@ std::optional<LightRay> World::sample_emission(double u_choose, Vec2 u_position,
     e.n = back ? -point.n : point.n;
     e.ray = {point.p, normalize(frame_from_z(e.n).from_local(local))};
     e.p_error = point.p_error;
-    e.radiance = emission_at(*assets_, emitter, point.p, point.uv, lambda);
+    e.radiance = emission_at(*assets_, emitter, point.p, point.uv, lambda) *
+                 opacity(*assets_, emitter, point.p, point.uv);
     e.pdf_position = area_pdf;
     e.pdf_direction = direction_pdf;
     r.light = chosen.index;

@@ -2,6 +2,7 @@
 
 #include "image/compare.h"
 #include "image/pyramid.h"
+#include "statistics.h"
 
 #include <doctest/doctest.h>
 
@@ -119,6 +120,217 @@ TEST_CASE("EWA follows a linear ramp, whatever the ellipse") {
             float const v = pyramid.lookup({0.43f, 0.52f}, TextureFilter::Ewa, Wrap::Clamp, d0, d1);
             CHECK(v == doctest::Approx(0.43 + 2 * 0.52).epsilon(0.01));
         }
+}
+
+namespace {
+
+/// What the elliptically weighted average stands for, by its definition and slowly: all of the picture, repeated, weighted by
+/// the Gaussian exp(-2 r^2) - exp(-2) in the ellipse with the two derivatives as half axes, where those are conjugate
+/// diameters: a point q is at the radius |M^-1 q|, M = (d0 d1). Each texel is sampled `sub` x `sub` times.
+double ellipse_average(Image const& image, Vec2 st, Vec2 d0, Vec2 d1, int sub) {
+    double const w = image.width(), h = image.height();
+    double const a = static_cast<double>(d0.x) * w, b = static_cast<double>(d1.x) * w,
+                 c = static_cast<double>(d0.y) * h, d = static_cast<double>(d1.y) * h;
+    double const det = a * d - b * c;
+    int const reach_x = static_cast<int>(std::hypot(a, b)) + 2,
+              reach_y = static_cast<int>(std::hypot(c, d)) + 2;
+    double const cx = static_cast<double>(st.x) * w, cy = static_cast<double>(st.y) * h;
+    double sum = 0, weights = 0;
+    for (int y = static_cast<int>(cy) - reach_y; y <= static_cast<int>(cy) + reach_y; ++y)
+        for (int x = static_cast<int>(cx) - reach_x; x <= static_cast<int>(cx) + reach_x; ++x) {
+            int wx = x, wy = y;
+            wrap_texel(Wrap::Repeat, image.width(), image.height(), wx, wy);
+            double const v = static_cast<double>(image.get(wx, wy, 0));
+            for (int j = 0; j < sub; ++j)
+                for (int i = 0; i < sub; ++i) {
+                    double const u = x + (i + 0.5) / sub - cx, t = y + (j + 0.5) / sub - cy;
+                    double const r2 = (std::pow(d * u - b * t, 2) + std::pow(a * t - c * u, 2)) / (det * det);
+                    if (r2 >= 1) continue;
+                    double const weight = std::exp(-2 * r2) - std::exp(-2.0);
+                    sum += weight * v;
+                    weights += weight;
+                }
+        }
+    return sum / weights;
+}
+
+/// Waves of 24 to 64 texels: detail that filters of several texels see.
+Image waves(int width, int height) {
+    Image image(PixelFormat::Float, width, height, {"Y"});
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            double const u = 2 * 3.14159265358979 * x / width, v = 2 * 3.14159265358979 * y / height;
+            image.set(x, y, 0,
+                      static_cast<float>(0.5 + 0.2 * std::sin(8 * u + 3 * v) + 0.2 * std::cos(4 * u - 9 * v) +
+                                         0.1 * std::sin(10 * v)));
+        }
+    return image;
+}
+
+double difference(double a, double b) { return std::abs(a - b); }
+
+}  // namespace
+
+TEST_CASE("EWA is the average over its ellipse") {
+    Pyramid const pyramid(waves(256, 256));
+    test::Random r(1);
+    double sum_ewa = 0, sum_trilinear = 0, worst = 0;
+    int const n = 300;
+    for (int i = 0; i < n; ++i) {
+        float const s = r.unit();
+        Vec2 const st(s, r.unit());
+        double const longer = std::pow(2.0, r.uniform(2, 5)) / 256, ratio = r.uniform(1, 8),
+                     angle = r.uniform(0, 6.3);
+        Vec2 const axis(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+        Vec2 const d0 = static_cast<float>(longer) * axis,
+                   d1 = static_cast<float>(longer / ratio) * Vec2(-axis.y, axis.x);
+        double const exact = ellipse_average(pyramid.level(0), st, d0, d1, 2);
+        auto const look = [&](TextureFilter f) {
+            return difference(static_cast<double>(pyramid.lookup(st, f, Wrap::Repeat, d0, d1)), exact);
+        };
+        double const ewa = look(TextureFilter::Ewa);
+        worst = std::max(worst, ewa);
+        sum_ewa += ewa;
+        sum_trilinear += look(TextureFilter::Trilinear);
+    }
+    MESSAGE("mean error of EWA ", sum_ewa / n, " (worst ", worst, "), of trilinear ", sum_trilinear / n);
+    // It reads a level where the short axis has a texel or two, widened by one texel, and mixes two levels.
+    CHECK(sum_ewa / n < 0.015);
+    CHECK(worst < 0.15);
+    CHECK(sum_ewa < 0.3 * sum_trilinear);
+}
+
+TEST_CASE("EWA: the limit of anisotropy widens the short axis, and no other") {
+    Pyramid const pyramid(waves(256, 256));
+    test::Random r(2);
+    for (int i = 0; i < 100; ++i) {
+        float const s = r.unit();
+        Vec2 const st(s, r.unit());
+        auto const angle = static_cast<float>(r.uniform(0, 6.3));
+        Vec2 const axis = Vec2(std::cos(angle), std::sin(angle)), other(-axis.y, axis.x);
+        float const longer = 0.1f;
+        auto const look = [&](float ratio, float limit) {
+            return pyramid.lookup(st, TextureFilter::Ewa, Wrap::Repeat, longer * axis, longer / ratio * other,
+                                  limit);
+        };
+        for (float const limit : {1.0f, 2.0f, 8.0f, 16.0f}) {
+            CHECK(look(30, limit) == doctest::Approx(look(limit, 64)).epsilon(1e-3));
+            float const within = 1 + 0.9f * (limit - 1);
+            CHECK(look(within, limit) == doctest::Approx(look(within, 64)).epsilon(1e-5));
+        }
+        // What is no limit, or none that can be kept, is one that can.
+        CHECK(look(1000, 1e9f) == look(1000, 64));
+        CHECK(look(5, 0) == look(5, 1));
+    }
+}
+
+TEST_CASE("trilinear mixes averages over squares of two sizes, one to two footprints wide") {
+    constexpr int kSide = 256;
+    Image const image = waves(kSide, kSide);
+    Pyramid const pyramid(image);
+    // Bilinear between the averages of squares of `size` texels, from the picture itself.
+    auto const squares = [&](Vec2 st, int size) {
+        double const x = static_cast<double>(st.x) * kSide / size - 0.5,
+                     y = static_cast<double>(st.y) * kSide / size - 0.5;
+        double sum = 0;
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i) {
+                double average = 0;
+                for (int v = 0; v < size; ++v)
+                    for (int u = 0; u < size; ++u) {
+                        int tx = (static_cast<int>(std::floor(x)) + i) * size + u;
+                        int ty = (static_cast<int>(std::floor(y)) + j) * size + v;
+                        wrap_texel(Wrap::Repeat, kSide, kSide, tx, ty);
+                        average += static_cast<double>(image.get(tx, ty, 0)) / (size * size);
+                    }
+                double const fx = x - std::floor(x), fy = y - std::floor(y);
+                sum += (i ? fx : 1 - fx) * (j ? fy : 1 - fy) * average;
+            }
+        return sum;
+    };
+    test::Random r(3);
+    for (int i = 0; i < 200; ++i) {
+        float const s = r.unit();
+        Vec2 const st(s, r.unit());
+        double const level = r.uniform(-1, 6);
+        // The wider of the two axes counts, and twice its derivative is the width of a footprint.
+        auto const half_width = static_cast<float>(std::exp2(level) / kSide / 2);
+        Vec2 const d(0.3f * half_width, -half_width), e(0.9f * half_width, 0);
+        double const v =
+            static_cast<double>(pyramid.lookup(st, TextureFilter::Trilinear, Wrap::Repeat, d, e));
+        int const base = std::max(0, static_cast<int>(std::floor(level)));
+        double const t = std::max(0.0, level - base);
+        double const exact = (1 - t) * squares(st, 1 << base) + t * squares(st, 2 << base);
+        CHECK(difference(v, exact) < 1e-4);
+        double const nearest =
+            static_cast<double>(pyramid.lookup(st, TextureFilter::Bilinear, Wrap::Repeat, d, e));
+        CHECK(difference(nearest, squares(st, 1 << base)) < 1e-4);
+    }
+}
+
+TEST_CASE("pyramids are the same whether rows or whole levels are halved") {
+    // Each level again, from all of the one above in doubles; sides of all parities.
+    for (auto const& [w, h] : {std::pair{37, 53}, {64, 7}, {1, 19}, {23, 1}, {2, 3}, {3, 2}}) {
+        Pyramid const pyramid(noise(w, h, 2));
+        auto const share = [](int n, int i, int from) {  // of texel `from` of n in texel i of n / 2
+            if (n == 1) return 1.0;
+            int const m = n / 2;
+            double const lo = static_cast<double>(i) * n / m, hi = static_cast<double>(i + 1) * n / m;
+            return std::max(0.0, std::min(hi, from + 1.0) - std::max(lo, static_cast<double>(from))) /
+                   (hi - lo);
+        };
+        for (int l = 1; l < pyramid.levels(); ++l) {
+            Image const &above = pyramid.level(l - 1), &here = pyramid.level(l);
+            for (int y = 0; y < here.height(); ++y)
+                for (int x = 0; x < here.width(); ++x) {
+                    double sum = 0;
+                    for (int v = 0; v < above.height(); ++v)
+                        for (int u = 0; u < above.width(); ++u)
+                            sum += share(above.width(), x, u) * share(above.height(), y, v) *
+                                   static_cast<double>(above.get(u, v, 1));
+                    CHECK(difference(sum, static_cast<double>(here.get(x, y, 1))) < 1e-6);
+                }
+        }
+    }
+}
+
+TEST_CASE("images of bytes share them until one is changed") {
+    Image a(PixelFormat::U8, 2, 1, {"Y"}, Encoding::srgb());
+    a.u8() = {188, 0};
+    Image b = a.with_encoding(Encoding::linear());
+    CHECK(a.shares_bytes_with(b));
+    CHECK(a.get(0, 0, 0) == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(b.get(0, 0, 0) == doctest::Approx(188 / 255.0));
+    b.set(1, 0, 0, 1);
+    CHECK_FALSE(a.shares_bytes_with(b));
+    CHECK(a.get(1, 0, 0) == 0);
+    CHECK(b.get(1, 0, 0) == 1);
+    Image const moved = std::move(b);
+    CHECK(moved.get(1, 0, 0) == 1);
+    CHECK_FALSE(Image().shares_bytes_with(Image()));
+    CHECK(Image().bytes() == 0);
+}
+
+TEST_CASE("floats that are halves become halves, all or none, bit by bit") {
+    Image image(PixelFormat::Float, 4, 1, {"Y"});
+    image.floats() = {0, -0.0f, 65504, 0x1p-24f};
+    image.chromaticities = kRec709;
+    CHECK(store_as_halves_if_exact(image));
+    CHECK(image.format() == PixelFormat::Half);
+    CHECK(image.chromaticities == kRec709);
+    CHECK(image.half_bits() == std::vector<std::uint16_t>{0, 0x8000, 0x7bff, 1});
+    CHECK_FALSE(store_as_halves_if_exact(image));
+    for (float const v : {0.1f, 65505.0f, 0x1p-25f, std::nanf("")}) {
+        Image other(PixelFormat::Float, 2, 1, {"Y"});
+        other.floats() = {1, v};
+        if (std::isnan(v)) {
+            store_as_halves_if_exact(other);  // either way it stays a NaN
+            CHECK(std::isnan(other.get(1, 0, 0)));
+            continue;
+        }
+        CHECK_FALSE(store_as_halves_if_exact(other));
+        CHECK(other.get(1, 0, 0) == v);
+    }
 }
 
 TEST_CASE("one number from colour: the average, or alpha where something is transparent") {

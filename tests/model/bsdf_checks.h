@@ -51,8 +51,11 @@ inline bool near(double a, double b, double share) {
 /// which areas are equal.
 class AdaptiveCells {
   public:
-    /// `peaks`: directions where a density may be high without pilot samples.
-    AdaptiveCells(std::vector<Vec3> const& pilot, std::vector<Vec3> const& peaks, std::size_t cells) {
+    /// `peaks`: directions where a density may be high without pilot samples. `few`: pilot samples in a part that need not be
+    /// halved; fewer for densities with edges.
+    AdaptiveCells(std::vector<Vec3> const& pilot, std::vector<Vec3> const& peaks, std::size_t cells,
+                  std::size_t few = 6)
+        : few_(few) {
         std::vector<Point> p;
         for (Vec3 const w : pilot) p.push_back(point(w));
         for (Vec3 const w : peaks) peaks_.push_back(point(w));
@@ -176,7 +179,7 @@ class AdaptiveCells {
         double const area = (c.hi[0] - c.lo[0]) * (c.hi[1] - c.lo[1]);
         for (Point const& p : peaks_)
             peak |= area > 1e-7 && p[0] >= c.lo[0] && p[0] <= c.hi[0] && p[1] >= c.lo[1] && p[1] <= c.hi[1];
-        bool const full = points.size() > 6;
+        bool const full = points.size() > few_;
         Point const middle{(c.lo[0] + c.hi[0]) / 2, (c.lo[1] + c.hi[1]) / 2};
         std::size_t axis = index(peak ? depth % 2 : whole.axis);
         if (full && !peak) {
@@ -206,7 +209,7 @@ class AdaptiveCells {
                refine(f, b, high, tolerance, depth + 1, points.subspan(cut));
     }
 
-    std::size_t least_ = 1, total_ = 1;
+    std::size_t few_, least_ = 1, total_ = 1;
     std::vector<Point> peaks_;
     std::vector<Node> nodes_;
     std::vector<Cell> cells_;
@@ -244,12 +247,12 @@ struct Drawn {
 };
 template <class Draw, class Density>
 Drawn chi_square_of(Draw const& draw, Density const& density, std::vector<Vec3> const& peaks, int n,
-                    std::size_t cells, std::uint64_t seed) {
+                    std::size_t cells, std::uint64_t seed, std::size_t few = 6) {
     Random pilot_numbers(seed + 7919), r(seed);
     std::vector<Vec3> pilot;
     for (std::size_t i = 0; i < 64 * cells; ++i)
         if (auto const w = draw(pilot_numbers)) pilot.push_back(*w);
-    AdaptiveCells const tree(pilot, peaks, cells);
+    AdaptiveCells const tree(pilot, peaks, cells, few);
     std::vector<double> o(tree.size() + 1), e = tree.integrate(density, 1e-4 / static_cast<double>(cells));
     for (int i = 0; i < n; ++i) {
         auto const w = draw(r);
@@ -489,8 +492,9 @@ inline void check_energy(Bsdf const& b, BsdfChecks const& c = {}) {
              a.sampled.mean());
         CHECK(a.total() <= 1 + 1e-4);
         if (a.quadrature > 1e-3) {
-            // What the quadrature is off is not held against the samples.
-            double const off = std::max(0.0, std::abs(a.sampled.mean() - a.quadrature) - 2e-4 * a.quadrature);
+            // What the quadrature is off (at edges and in far tails) is not held against the samples.
+            double const off =
+                std::max(0.0, std::abs(a.sampled.mean() - a.quadrature) - 1.5e-3 * a.quadrature);
             double const p =
                 off == 0 ? 1 : student_p(off / a.sampled.standard_error(), static_cast<double>(c.n - 1));
             INFO("p = ", p, ", half-width ", a.sampled.half_width());

@@ -6,8 +6,11 @@
 #include "scene/scene.h"
 #include "statistics.h"
 
+#include <unistd.h>
+#include <filesystem>
 #include <functional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace nephroid::test {
@@ -59,6 +62,22 @@ class SphereCells {
 
   private:
     int bands_, azimuths_;
+};
+
+/// A folder that goes away with the test.
+class Folder {
+  public:
+    Folder()
+        : path_(std::filesystem::temp_directory_path() / ("nephroid_model_" + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(Folder const&) = delete;
+    Folder& operator=(Folder const&) = delete;
+    [[nodiscard]] std::string file(std::string const& name) const { return (path_ / name).string(); }
+
+  private:
+    std::filesystem::path path_;
 };
 
 inline TextureId add_number(Scene& s, float value) { return s.add(Texture{ConstantFloatTexture{value}, {}}); }

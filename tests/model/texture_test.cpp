@@ -7,30 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include <unistd.h>
-#include <filesystem>
-#include <string>
-
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
-
-/// A folder that goes away with the test.
-class Folder {
-  public:
-    Folder()
-        : path_(std::filesystem::temp_directory_path() / ("nephroid_model_" + std::to_string(::getpid()))) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(Folder const&) = delete;
-    Folder& operator=(Folder const&) = delete;
-    [[nodiscard]] std::string file(std::string const& name) const { return (path_ / name).string(); }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// 2 x 2 texels, linear: row 0 (the top) red, green; row 1 blue, gray 0.5.
 Image four_colors() {

@@ -141,14 +141,36 @@ TEST_CASE("unknown directives") {
     CHECK(contains(notes(read_world("WorldEnd")), "t.pbrt:2: WorldEnd is of pbrt-v3"));
 }
 
+TEST_CASE("what a medium absorbs belongs to the dielectric that it is in") {
+    auto const scene = read(
+        "MakeNamedMedium \"juice\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" "
+        "[0 0 0] "
+        "\"float scale\" 2 WorldBegin Material \"dielectric\" Shape \"sphere\" MediumInterface \"juice\" "
+        "\"\" "
+        "Shape \"sphere\" Shape \"sphere\" MediumInterface \"\" Shape \"sphere\"");
+    CHECK(scene.notes.empty());
+    auto const& o = scene.world().objects;
+    REQUIRE(o.size() == 4);
+    auto const absorption = [&](std::size_t i) {
+        return as<DielectricMaterial>(scene[o[i].material].kind).interior.absorption;
+    };
+    CHECK(as<ConstantSpd>(absorption(0)).value == 0);
+    CHECK(as<RgbUnboundedSpd>(absorption(1)).rgb == Vec3{2, 4, 6});
+    CHECK(o[1].material == o[2].material);
+    CHECK(o[3].material == o[0].material);
+}
+
 TEST_CASE("media are noted") {
     auto const scene = read(
-        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 "
-        "1]\nWorldBegin\nMediumInterface \"fog\" \"\"\nMediumInterface \"\" Shape \"sphere\"");
+        "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\"\nMakeNamedMedium \"milk\" \"string type\" "
+        "\"homogeneous\" \"rgb sigma_a\" [1 1 1]\nWorldBegin MediumInterface \"milk\" \"\"\nShape "
+        "\"sphere\"");
     CHECK(scene.world().objects.size() == 1);
-    CHECK(contains(notes(scene), "t.pbrt:1: participating media"));
-    CHECK(contains(notes(scene), "t.pbrt:3: participating media"));
-    CHECK(scene.notes.size() == 2);
+    CHECK(contains(notes(scene), "t.pbrt:1: MakeNamedMedium \"fog\": is not rendered yet"));
+    CHECK(contains(notes(scene), "t.pbrt:2: MakeNamedMedium \"milk\": its scattering is not rendered yet"));
+    CHECK(contains(notes(scene),
+                   "t.pbrt:4: what medium \"milk\" absorbs is rendered inside dielectrics alone"));
+    CHECK(scene.notes.size() == 3);
     CHECK(contains(
         error_in("MakeNamedMedium \"a\" \"string type\" \"homogeneous\"\nMakeNamedMedium \"a\" \"string "
                  "type\" \"homogeneous\""),

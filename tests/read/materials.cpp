@@ -1,5 +1,6 @@
 // Materials and textures.
 #include "helpers.h"
+#include "spectrum/named.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -47,28 +48,149 @@ TEST_CASE("materials and their defaults") {
 }
 
 TEST_CASE("what is not rendered yet stands in and is noted") {
-    auto scene = with("Material \"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"float roughness\" 0.1");
-    CHECK(as<RgbAlbedoSpd>(spectrum(scene, material_of<DiffuseMaterial>(scene).reflectance)).rgb.x == 0.1f);
-    CHECK(contains(notes(scene), "t.pbrt:2: Material \"coateddiffuse\""));
-    scene = with(
-        "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" "
-        "\"metal-Ag-k\"");
-    CHECK(as<NamedSpd>(spectrum(scene, material_of<ConductorMaterial>(scene).eta)).name == "metal-Ag-eta");
-    for (char const* type : {"diffusetransmission", "subsurface", "hair", "measured"}) {
+    for (char const* type : {"subsurface", "hair"}) {
         CAPTURE(type);
-        scene = with("Material \"" + std::string(type) + "\" \"float eta\" 1.3");
+        auto const scene = with("Material \"" + std::string(type) + "\" \"float eta\" 1.3");
         material_of<DiffuseMaterial>(scene);
         CHECK(scene.notes.size() == 1);
     }
+}
+
+TEST_CASE("roughness: its names, its defaults, and what is out of range") {
+    auto scene = with("Material \"conductor\" \"float roughness\" 0.3");
+    auto const& both = material_of<ConductorMaterial>(scene).roughness;
+    CHECK(both.u == both.v);
+    CHECK(texture_of<ConstantFloatTexture>(scene, both.u).value == 0.3f);
+    CHECK(both.remap);
+    CHECK(both.distribution == Distribution::TrowbridgeReitz);
+    CHECK_FALSE(both.multiscatter);
     scene = with(
-        "Material \"dielectric\" \"float roughness\" 0.1 \"texture displacement\" \"d\" \"string normalmap\" "
-        "\"n.png\"");
-    CHECK(contains(notes(scene), "roughness is not rendered yet"));
-    CHECK(contains(notes(scene), "displacement is not rendered yet"));
-    CHECK(contains(notes(scene), "normal maps are not rendered yet"));
-    CHECK(notes(with("Material \"conductor\" \"float uroughness\" 0 \"float vroughness\" 0 \"bool "
-                     "remaproughness\" false"))
-              .empty());
+        "Material \"dielectric\" \"float uroughness\" 0.1 \"float vroughness\" 0.4 \"bool remaproughness\" "
+        "false \"string distribution\" \"beckmann\" \"bool multiscatter\" true");
+    auto const& two = material_of<DielectricMaterial>(scene).roughness;
+    CHECK(texture_of<ConstantFloatTexture>(scene, two.u).value == 0.1f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, two.v).value == 0.4f);
+    CHECK_FALSE(two.remap);
+    CHECK(two.distribution == Distribution::Beckmann);
+    CHECK(two.multiscatter);
+    // One direction alone: the other is smooth, as in pbrt.
+    scene = with("Material \"dielectric\" \"float vroughness\" 0.4");
+    CHECK(texture_of<ConstantFloatTexture>(scene, material_of<DielectricMaterial>(scene).roughness.u).value ==
+          0.0f);
+    CHECK_FALSE(material_of<DielectricMaterial>(with("Material \"dielectric\"")).roughness.u.valid());
+    CHECK(contains(notes(with("Material \"conductor\" \"float roughness\" 10")), "above 1"));
+    CHECK(notes(with("Material \"conductor\" \"float roughness\" 1e-8")).empty());
+    CHECK(contains(error_in_world("Material \"conductor\" \"float roughness\" -0.1"),
+                   "t.pbrt:2: \"float roughness\" must not be negative"));
+    CHECK(contains(error_in_world("Material \"conductor\" \"float roughness\" nan"), "t.pbrt:2"));
+    CHECK(contains(error_in_world("Material \"conductor\" \"string distribution\" \"gauss\""), "beckmann"));
+}
+
+TEST_CASE("indices of refraction: bad ones, and the formulas of glass catalogues") {
+    for (char const* bad : {"0", "-1.5", "nan", "inf"}) {
+        CAPTURE(bad);
+        CHECK(contains(error_in_world("Material \"dielectric\" \"float eta\" " + std::string(bad)),
+                       "t.pbrt:2"));
+    }
+    CHECK(notes(with("Material \"dielectric\" \"float eta\" 1")).empty());
+    auto const at = [](Scene const& scene, double nm) {
+        return interpolate(as<TabulatedSpd>(material_of<DielectricMaterial>(scene).eta), nm);
+    };
+    // Schott's N-BK7 at the helium d line: 1.5168.
+    auto const bk7 = with(
+        "Material \"dielectric\" \"float sellmeier\" [1.03961212 0.00600069867 0.231792344 0.0200179144 "
+        "1.01046945 103.560653]");
+    CHECK(at(bk7, 587.6) == doctest::Approx(1.5168).epsilon(2e-5));
+    auto const cauchy = with("Material \"dielectric\" \"float cauchy\" [1.5046 0.0042 0]");
+    CHECK(at(cauchy, 500) == doctest::Approx(1.5046 + 0.0042 / 0.25).epsilon(1e-6));
+    CHECK(
+        contains(error_in_world("Material \"dielectric\" \"float cauchy\" [1.5 0.004]"), "needs 3 numbers"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"float cauchy\" [-3 0 0]"),
+                   "gives no index of refraction"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"float eta\" 1.5 \"float cauchy\" [1.5 0.004 0]"),
+                   "not both"));
+}
+
+TEST_CASE("coats, transmission, measured, and the models that pbrt does not have") {
+    auto scene = with(
+        "Material \"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"float roughness\" 0.1 \"float "
+        "thickness\" "
+        "0.5 \"rgb albedo\" [0.5 0.5 0.5] \"float g\" 0.3 \"integer maxdepth\" 20 \"integer nsamples\" 4");
+    auto const& diffuse = material_of<CoatedDiffuseMaterial>(scene);
+    CHECK(as<RgbAlbedoSpd>(spectrum(scene, diffuse.reflectance)).rgb.x == 0.1f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, diffuse.coat.thickness).value == 0.5f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, diffuse.coat.g).value == 0.3f);
+    CHECK(diffuse.coat.albedo.valid());
+    CHECK(diffuse.coat.max_depth == 20);
+    CHECK(diffuse.coat.samples == 4);
+    CHECK(notes(scene).empty());
+    CHECK_FALSE(material_of<CoatedDiffuseMaterial>(with("Material \"coateddiffuse\"")).coat.albedo.valid());
+    scene = with(
+        "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" \"spectrum conductor.k\" "
+        "\"metal-Ag-k\" \"float conductor.roughness\" 0.2 \"float interface.roughness\" 0.1 \"float "
+        "interface.eta\" 1.3");
+    auto const& metal = material_of<CoatedConductorMaterial>(scene);
+    CHECK(as<NamedSpd>(spectrum(scene, metal.conductor.eta)).name == "metal-Ag-eta");
+    CHECK(texture_of<ConstantFloatTexture>(scene, metal.conductor.roughness.u).value == 0.2f);
+    CHECK(texture_of<ConstantFloatTexture>(scene, metal.coat.roughness.u).value == 0.1f);
+    CHECK(as<ConstantSpd>(metal.coat.eta).value == 1.3f);
+    CHECK(notes(scene).empty());
+    scene = with("Material \"diffusetransmission\" \"float scale\" 2");
+    CHECK(as<ConstantSpd>(spectrum(scene, material_of<DiffuseTransmissionMaterial>(scene).transmittance))
+              .value == 0.25f);
+    CHECK(material_of<DiffuseTransmissionMaterial>(scene).scale == 2.0f);
+    CHECK(contains(error_in_world("Material \"measured\""), "needs a \"string filename\""));
+    CHECK(material_of<MeasuredMaterial>(with("Material \"measured\" \"string filename\" \"/a.bsdf\""))
+              .file.path == "/a.bsdf");
+    scene = with("Material \"ashikhminshirley\" \"float nu\" 10 \"float nv\" 1000");
+    CHECK(texture_of<ConstantFloatTexture>(scene, material_of<AshikhminShirleyMaterial>(scene).nv).value ==
+          1000.0f);
+    CHECK_FALSE(
+        material_of<PlasticMaterial>(with("Material \"plastic\" \"bool nonlinear\" false")).nonlinear);
+    scene = with(
+        "Material \"metallicroughness\" \"rgb basecolor\" [1 0.5 0.2] \"float metallic\" 0 \"float "
+        "transmission\" 1 "
+        "\"bool thinwalled\" false \"rgb attenuationcolor\" [0.5 1 1] \"float attenuationdistance\" 2 "
+        "\"float "
+        "clearcoat\" 1 \"rgb sheencolor\" [1 1 1] \"float anisotropyrotation\" 90 \"float ior\" 1.4");
+    auto const& gltf = material_of<MetallicRoughnessMaterial>(scene);
+    CHECK_FALSE(gltf.transmission.thin);
+    // ln 2 / 2: after a length of 2 half the red is left.
+    CHECK(as<RgbUnboundedSpd>(gltf.transmission.interior.absorption).rgb.x ==
+          doctest::Approx(0.34657359).epsilon(1e-6));
+    CHECK(as<RgbUnboundedSpd>(gltf.transmission.interior.absorption).rgb.y == 0.0f);
+    CHECK(gltf.anisotropy.rotation == doctest::Approx(1.5707963));
+    CHECK(gltf.multiscatter);
+    CHECK(notes(scene).empty());
+    validate(scene);
+    CHECK(contains(error_in_world("Material \"metallicroughness\" \"float ior\" 0.5"), "at least 1"));
+}
+
+TEST_CASE("interiors: priority and absorption") {
+    auto const scene =
+        with("Material \"dielectric\" \"integer priority\" 3 \"rgb absorption\" [0.1 0.2 0.3]");
+    auto const& inside = material_of<DielectricMaterial>(scene).interior;
+    CHECK(inside.priority == 3);
+    CHECK(as<RgbUnboundedSpd>(inside.absorption).rgb.z == doctest::Approx(0.3));
+    CHECK(
+        contains(error_in_world("Material \"dielectric\" \"integer priority\" -1"), "must not be negative"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"rgb absorption\" [0.1 -1 0]"), "negative"));
+    CHECK(contains(error_in_world("Material \"dielectric\" \"rgb attenuationcolor\" [1 1 1] \"float "
+                                  "attenuationdistance\" 0"),
+                   "must be above 0"));
+    CHECK(contains(error_of([&] { validate(with("Material \"dielectric\" \"float absorption\" -1")); }),
+                   "must not be negative"));
+}
+
+TEST_CASE("normal maps and bumps belong to any surface, and to no mix") {
+    auto scene =
+        with("Texture \"d\" \"float\" \"constant\"\nMaterial \"dielectric\" \"texture displacement\" \"d\"");
+    CHECK(scene[scene.world().objects[0].material].displacement.valid());
+    scene = with("Material \"diffuse\" \"string normalmap\" \"/n.png\"");
+    auto const id = scene[scene.world().objects[0].material].normal_map.image;
+    REQUIRE(id.valid());
+    CHECK(scene.images[id.value].encoding == "linear");
+    CHECK(contains(notes(with("Material \"interface\" \"string normalmap\" \"/n.png\"")), "normalmap"));
 }
 
 TEST_CASE("unknown and old materials") {
@@ -266,14 +388,81 @@ TEST_CASE("unused textures are checked, but not kept") {
     CHECK(contains(notes(scene), "did you mean \"uscale\"?"));
 }
 
-TEST_CASE("textures that are not rendered yet") {
-    for (char const* text :
-         {"\"spectrum\" \"bilerp\"", "\"spectrum\" \"dots\"", "\"float\" \"fbm\"", "\"spectrum\" \"marble\"",
-          "\"float\" \"windy\"", "\"float\" \"wrinkled\" \"integer octaves\" 4",
-          "\"spectrum\" \"directionmix\"", "\"float\" \"ptex\""}) {
-        CAPTURE(text);
-        auto const scene = with(std::string("Texture \"t\" ") + text);
-        CHECK(scene.notes.size() == 1);
-        CHECK(contains(notes(scene), "is not rendered yet"));
-    }
+TEST_CASE("textures made of others and of noise, and their defaults") {
+    auto const spectrum_of = [](std::string const& text) {
+        return with(text + " Material \"diffuse\" \"texture reflectance\" \"t\"");
+    };
+    auto const float_of = [](std::string const& text) {
+        return with("Translate 1 0 0 " + text + R"( Texture "m" "spectrum" "mix" "texture amount" "t"
+            Material "diffuse" "texture reflectance" "m")");
+    };
+    auto const top = [](Scene const& s) { return material_of<DiffuseMaterial>(s).reflectance; };
+    auto const amount = [&](Scene const& s) { return texture_of<MixTexture>(s, top(s)).amount; };
+    auto const value = [](Scene const& s, TextureId id) { return as<ConstantSpd>(spectrum(s, id)).value; };
+
+    auto s = spectrum_of("Texture \"t\" \"spectrum\" \"bilerp\" \"float uscale\" 3");
+    auto const& bilerp = texture_of<BilerpTexture>(s, top(s));
+    CHECK(as<UvMapping>(bilerp.mapping).su == 3);
+    CHECK(value(s, bilerp.v00) == 0);
+    CHECK(value(s, bilerp.v01) == 1);
+    CHECK(value(s, bilerp.v10) == 0);
+    CHECK(value(s, bilerp.v11) == 1);
+    s = spectrum_of("Texture \"t\" \"spectrum\" \"dots\" \"float vdelta\" 2");
+    auto const& dots = texture_of<DotsTexture>(s, top(s));
+    CHECK(as<UvMapping>(dots.mapping).dv == 2);
+    CHECK(value(s, dots.outside) == 1);  // pbrt-v4's "inside" is around the dots
+    CHECK(value(s, dots.inside) == 0);
+    s = spectrum_of("Texture \"t\" \"spectrum\" \"directionmix\"");
+    auto const& mix = texture_of<DirectionMixTexture>(s, top(s));
+    CHECK(value(s, mix.tex1) == 0);
+    CHECK(value(s, mix.tex2) == 1);
+    CHECK(mix.dir == Vec3{0, 1, 0});
+    // The direction turns with the current transform, and comes out with length 1.
+    s = spectrum_of(
+        "Scale 1 2 1 Rotate 90 0 0 1 Texture \"t\" \"spectrum\" \"directionmix\" \"vector3 dir\" [5 0 0]");
+    CHECK(std::abs(texture_of<DirectionMixTexture>(s, top(s)).dir.y - 1) < 1e-6f);
+    s = spectrum_of("Translate 0 1 0 Texture \"t\" \"spectrum\" \"marble\"");
+    auto const& marble = texture_of<MarbleTexture>(s, top(s));
+    CHECK(marble.octaves == 8);
+    CHECK(marble.roughness == 0.5f);
+    CHECK(marble.scale == 1);
+    CHECK(marble.variation == 0.2f);
+    CHECK(marble.world_to_texture.m[1][3] == -1);
+    CHECK(notes(s).empty());
+
+    s = float_of("Texture \"t\" \"float\" \"fbm\"");
+    auto const& fbm = texture_of<FbmTexture>(s, amount(s));
+    CHECK(fbm.octaves == 8);
+    CHECK(fbm.roughness == 0.5f);
+    CHECK(fbm.world_to_texture.m[0][3] == -1);
+    s = float_of("Texture \"t\" \"float\" \"wrinkled\" \"integer octaves\" 4 \"float roughness\" 0.25");
+    CHECK(texture_of<WrinkledTexture>(s, amount(s)).octaves == 4);
+    CHECK(texture_of<WrinkledTexture>(s, amount(s)).roughness == 0.25f);
+    s = float_of("Texture \"t\" \"float\" \"windy\"");
+    CHECK(texture_of<WindyTexture>(s, amount(s)).world_to_texture.m[0][3] == -1);
+    validate(s);
+    s = float_of("Texture \"t\" \"float\" \"bilerp\" \"float v00\" 0.25");
+    CHECK(texture_of<ConstantFloatTexture>(s, texture_of<BilerpTexture>(s, amount(s)).v00).value == 0.25f);
+    CHECK(notes(s).empty());
+    s = with("Texture \"t\" \"float\" \"ptex\" \"string filename\" \"a.ptx\"");
+    CHECK(notes(s) == "t.pbrt:2: Texture \"t\" \"ptex\": is not rendered: a constant 0.5 stands in\n");
+}
+
+TEST_CASE("textures of the wrong type, and numbers out of range") {
+    auto const error = [](std::string const& text) { return error_in_world("Texture \"t\" " + text); };
+    for (char const* kind : {"fbm", "wrinkled", "windy"})
+        CHECK(contains(error("\"spectrum\" \"" + std::string(kind) + "\""), "t.pbrt:2: Texture \"t\""));
+    CHECK(contains(error("\"spectrum\" \"fbm\""), "is a float texture only"));
+    CHECK(contains(error("\"float\" \"marble\""), "is a spectrum texture only"));
+    CHECK(contains(error("\"float\" \"fbm\" \"integer octaves\" -1"), "\"octaves\" must be 0 to 64"));
+    CHECK(contains(error("\"float\" \"fbm\" \"integer octaves\" 2000000000"), "must be 0 to 64"));
+    CHECK(contains(error("\"float\" \"directionmix\" \"vector3 dir\" [0 0 0]"), "without length"));
+    CHECK(contains(error("\"float\" \"checkerboard\" \"integer dimension\" 4"), "must be 2 or 3"));
+    std::string const picture = "\"spectrum\" \"imagemap\" \"string filename\" \"a.png\" ";
+    CHECK(contains(error(picture + "\"float maxanisotropy\" 0.5"), "must be at least 1"));
+    CHECK(contains(error(picture + "\n\"string encoding\" \"srgb\""), "must be \"linear\", \"sRGB\""));
+    for (char const* encoding : {"gamma", "gamma x", "gamma 0", "gamma -1", "gamma nan", "linear ", "SRGB"})
+        CHECK(contains(error(picture + "\"string encoding\" \"" + encoding + "\""), "\"encoding\" must be"));
+    CHECK(contains(error(picture + "\"string filter\" \"box\""), "use one of"));
+    CHECK(contains(error(picture + "\"string wrap\" \"mirror\""), "use one of"));
 }

@@ -31,14 +31,14 @@ struct Reference {
 constexpr Reference kReferences[] = {
     {"cornell-box", "pbrt4-minus/cornell-box/cornell-box.pbrt", 64, nullptr},
     {"smallpt", "pbrt4-minus/cornell-box/smallpt.pbrt", 128, nullptr},
-    {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 8, "a rough conductor"},
+    {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 128, nullptr},
     {"lights-shapes", "references/pbrt-v4/lights-shapes.pbrt", 96, nullptr},
     {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 256, nullptr},
-    {"lights-env", "references/pbrt-v4/lights-env.pbrt", 8, "rough conductors"},
-    {"materials", "references/pbrt-v4/materials.pbrt", 8, "rough, coated and transmitting materials"},
-    {"textures", "references/pbrt-v4/textures.pbrt", 8, "procedural textures, displacement, normal maps"},
-    {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 8, "coateddiffuse"},
-    {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 8, "coateddiffuse"},
+    {"lights-env", "references/pbrt-v4/lights-env.pbrt", 128, nullptr},
+    {"materials", "references/pbrt-v4/materials.pbrt", 128, nullptr},
+    {"textures", "references/pbrt-v4/textures.pbrt", 128, nullptr},
+    {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 64, nullptr},
+    {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 64, nullptr},
 };
 
 std::filesystem::path data_folder() {

@@ -65,7 +65,7 @@ TEST_CASE("fields are counted, arrays and optionals among them") {
     CHECK(count_fields(DiffuseMaterial{}) == 1);
     CHECK(count_fields(Camera{}) == 6);
     CHECK(count_fields(Instance{}) == 3);
-    CHECK(count_fields(ImageTexture{}) == 8);
+    CHECK(count_fields(ImageTexture{}) == 9);
     CHECK(count_fields(Mat4{}) == 1);
     CHECK(count_fields(Object{}) == 7);
 }
@@ -93,6 +93,25 @@ TEST_CASE("whatever shapes the picture changes the scene's hash") {
             [](Scene& s) { std::get<ConstantFloatTexture>(s.textures[1].kind).value = 0.25f; },
             [](Scene& s) { std::get<ImageTexture>(s.textures[2].kind).wrap = WrapMode::Clamp; },
             [](Scene& s) { std::get<ImageTexture>(s.textures[2].kind).mapping = UvMapping{}; },
+            [](Scene& s) { std::get<ImageTexture>(s.textures[2].kind).max_anisotropy = 4; },
+            [](Scene& s) { s.textures[3].kind = FbmTexture{}; },
+            [](Scene& s) { s.textures[3].kind = WrinkledTexture{}; },
+            [](Scene& s) { s.textures[3].kind = WrinkledTexture{.octaves = 7}; },
+            [](Scene& s) { s.textures[3].kind = WindyTexture{}; },
+            [](Scene& s) { s.textures[3].kind = MarbleTexture{}; },
+            [](Scene& s) { s.textures[3].kind = MarbleTexture{.variation = 0.3f}; },
+            [](Scene& s) {
+                s.textures[3].kind = DirectionMixTexture{TextureId{0}, TextureId{2}};
+            },
+            [](Scene& s) {
+                s.textures[3].kind = DirectionMixTexture{TextureId{0}, TextureId{2}, {1, 0, 0}};
+            },
+            [](Scene& s) {
+                s.textures[3].kind = DotsTexture{{}, TextureId{0}, TextureId{2}};
+            },
+            [](Scene& s) {
+                s.textures[3].kind = DotsTexture{{}, TextureId{2}, TextureId{0}};
+            },
             [](Scene& s) { std::get<MixTexture>(s.textures[3].kind).tex1 = TextureId{2}; },
             [](Scene& s) { s.materials[0].kind = InterfaceMaterial{}; },
             [](Scene& s) { std::get<DielectricMaterial>(s.materials[1].kind).eta = NamedSpd{"glass-BK7"}; },

@@ -42,6 +42,11 @@ Fault shape_fault(char const* message, Shape shape) {
     return {message, [shape](Scene& s) { s.world().objects[0].shape = shape; }};
 }
 
+/// Makes texture 3, which stands in line 6 and is the reflectance of a material, something else.
+auto texture(TextureKind kind) {
+    return [kind](Scene& s) { s.textures[3].kind = kind; };
+}
+
 }  // namespace
 
 TEST_CASE("good scenes pass") {
@@ -170,13 +175,22 @@ TEST_CASE("spectra, textures and materials out of range are refused") {
              s.textures[3].kind =
                  CheckerboardTexture{.dimension = 1, .tex1 = TextureId{0}, .tex2 = TextureId{0}};
          }},
+        {"maxanisotropy must be at least 1",
+         [](Scene& s) { std::get<ImageTexture>(s.textures[2].kind).max_anisotropy = kNan; }},
+        {"scene.pbrt:6: the texture's octaves must be 0 to 64", texture(FbmTexture{.octaves = 65})},
+        {"octaves must be 0 to 64", texture(WrinkledTexture{.octaves = -1})},
+        {"the texture holds a number that is not finite", texture(MarbleTexture{.variation = kNan})},
+        {"the texture's transform cannot be inverted", texture(WindyTexture{scale(1, 0, 1)})},
+        {"direction has no length", texture(DirectionMixTexture{TextureId{0}, TextureId{0}, Vec3{0}})},
+        {"direction holds", texture(DirectionMixTexture{TextureId{0}, TextureId{0}, Vec3{kNan}})},
+        {"is made of others but names none", texture(BilerpTexture{.v00 = TextureId{0}})},
+        {"is made of others but names none", texture(DotsTexture{.inside = TextureId{0}})},
     });
 }
 
 TEST_CASE("textures are of the kind that is needed, and there where they are needed") {
     TextureId const grey{0}, half{1};  // a spectrum, a float
     auto const material = [](MaterialKind kind) { return [kind](Scene& s) { s.materials[1].kind = kind; }; };
-    auto const texture = [](TextureKind kind) { return [kind](Scene& s) { s.textures[3].kind = kind; }; };
     all_refused({
         {"scene.pbrt:8: the diffuse material names no reflectance", material(DiffuseMaterial{})},
         {"the conductor needs", material(ConductorMaterial{.eta = grey})},
@@ -189,6 +203,14 @@ TEST_CASE("textures are of the kind that is needed, and there where they are nee
         {"scene.pbrt:6: the mix's second texture needs a spectrum", texture(MixTexture{grey, half, half})},
         {"the mix's amount needs a float", texture(MixTexture{grey, grey, grey})},
         {"the texture's scale needs a float", texture(ScaleTexture{grey, grey})},
+        {"the mix's second texture needs a spectrum", texture(DirectionMixTexture{grey, half})},
+        {"each corner of the bilerp needs a float", texture(BilerpTexture{{}, half, half, grey, half})},
+        {"each corner of the bilerp needs a float", texture(BilerpTexture{{}, half, half, half, grey})},
+        {"the pattern of dots's second texture needs a spectrum", texture(DotsTexture{{}, half, grey})},
+        {"scene.pbrt:7: the reflectance needs a spectrum", texture(FbmTexture{})},
+        {"the reflectance needs a spectrum", texture(WindyTexture{})},
+        {"the reflectance needs a spectrum", texture(WrinkledTexture{})},
+        {"the mix's amount needs a float", [](Scene& s) { s.textures[1].kind = MarbleTexture{}; }},
         {"the checkerboard's second texture needs a float",
          texture(CheckerboardTexture{.tex1 = half, .tex2 = grey})},
         {"scene.pbrt:7: the reflectance needs a spectrum", texture(ScaleTexture{half, half})},

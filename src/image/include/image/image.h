@@ -1,6 +1,6 @@
 // Pixels. Channels are interleaved, row 0 is the top row. Numbers are stored as bytes, halves or floats; `get` and `set`
 // always speak linear light, so that no caller ever handles an encoded value. An alpha channel ("A") is a coverage, not
-// light, and is linear whatever the encoding says.
+// light, and is linear whatever the encoding says. Copies of an image of bytes share them until one is changed.
 #pragma once
 
 #include "image/half.h"
@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,7 +76,7 @@ class Image {
         std::size_t const i = index(x, y, c);
         switch (format_) {
             case PixelFormat::U8:
-                return c == alpha_ ? static_cast<float>(u8_[i]) / 255.0f : decode_[u8_[i]];
+                return c == alpha_ ? static_cast<float>((*u8_)[i]) / 255.0f : decode_[(*u8_)[i]];
             case PixelFormat::Half:
                 return half_to_float(half_[i]);
             case PixelFormat::Float:
@@ -93,8 +94,9 @@ class Image {
                static_cast<std::size_t>(c);
     }
     /// The stored numbers of the format in use, for codecs; the other two are empty.
-    [[nodiscard]] std::vector<std::uint8_t>& u8() { return u8_; }
-    [[nodiscard]] std::vector<std::uint8_t> const& u8() const { return u8_; }
+    /// Not const: what others share is copied first.
+    [[nodiscard]] std::vector<std::uint8_t>& u8();
+    [[nodiscard]] std::vector<std::uint8_t> const& u8() const { return u8_ ? *u8_ : no_bytes(); }
     [[nodiscard]] std::vector<std::uint16_t>& half_bits() { return half_; }
     [[nodiscard]] std::vector<std::uint16_t> const& half_bits() const { return half_; }
     [[nodiscard]] std::vector<float>& floats() { return float_; }
@@ -103,14 +105,22 @@ class Image {
     /// Of the file's header, if it said so; Rec. 709 is meant otherwise.
     std::optional<Chromaticities> chromaticities;
 
+    /// The same bytes read by another curve. They are shared until one of the two is changed. For U8.
+    [[nodiscard]] Image with_encoding(Encoding encoding) const;
+    /// Do the two share their bytes? Such a pair costs bytes() once.
+    [[nodiscard]] bool shares_bytes_with(Image const& other) const { return u8_ && u8_ == other.u8_; }
+
   private:
+    static std::vector<std::uint8_t> const& no_bytes();
+    void set_encoding(Encoding encoding);
+
     PixelFormat format_ = PixelFormat::Float;
     int width_ = 0, height_ = 0, channels_ = 0;
     int alpha_ = -1;  // index of channel "A"
     std::vector<std::string> names_;
     Encoding encoding_;
-    std::vector<float> decode_;  // 256 entries when bytes are stored
-    std::vector<std::uint8_t> u8_;
+    std::vector<float> decode_;                      // 256 entries when bytes are stored
+    std::shared_ptr<std::vector<std::uint8_t>> u8_;  // null when no bytes are stored
     std::vector<std::uint16_t> half_;
     std::vector<float> float_;
 };
@@ -120,6 +130,10 @@ std::size_t count_bad_pixels(Image const& image);
 /// Replaces NaN and negative numbers by 0 and +infinity by the largest finite number of that channel in the image (an
 /// environment map must keep a finite sum). Returns how many pixels were bad.
 std::size_t sanitize(Image& image);
+
+/// Floats that are all halves are stored as halves: half the memory, and not a bit is lost. Returns whether it did; images of
+/// another format are left alone. True of most pictures in Radiance's format, whose numbers have eight binary digits.
+bool store_as_halves_if_exact(Image& image);
 
 /// Names by number of channels as files without names mean them: Y, YA, RGB, RGBA.
 std::vector<std::string> default_channel_names(int channels);

@@ -15,6 +15,8 @@ namespace nephroid {
 enum class Wrap { Repeat, Black, Clamp, OctahedralSphere };
 enum class TextureFilter { Point, Bilinear, Trilinear, Ewa };
 
+inline constexpr float kMaxAnisotropy = 8.0f;  // pbrt-v4's
+
 class Pyramid {
   public:
     Pyramid() = default;
@@ -39,10 +41,13 @@ class Pyramid {
         return {image.get(x, y, rgb_[0]), image.get(x, y, rgb_[1]), image.get(x, y, rgb_[2])};
     }
 
-    /// dst0 and dst1 are the derivatives of (s, t) along the two axes of the pixel's footprint.
-    [[nodiscard]] Vec3 lookup_rgb(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1) const;
+    /// dst0 and dst1 are the derivatives of (s, t) along the two axes of the pixel's footprint. Of Ewa, a footprint longer
+    /// than max_anisotropy (1 to 64) times its width is widened: that is what bounds its cost.
+    [[nodiscard]] Vec3 lookup_rgb(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1,
+                                  float max_anisotropy = kMaxAnisotropy) const;
     /// One number, as pbrt-v4 takes it: a gray image's value, the average of RGB, or alpha where there is one below 1.
-    [[nodiscard]] float lookup(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1) const;
+    [[nodiscard]] float lookup(Vec2 st, TextureFilter filter, Wrap wrap, Vec2 dst0, Vec2 dst1,
+                               float max_anisotropy = kMaxAnisotropy) const;
 
   private:
     std::vector<Image> levels_;

@@ -15,4 +15,7 @@ namespace nephroid {
 /// Numbers that are not finite are kept; see sanitize().
 Image read_image(std::filesystem::path const& path, std::optional<Encoding> encoding = std::nullopt);
 
+/// Does the file store light itself, so that `encoding` is nothing to it (EXR, HDR, PFM)? False for what cannot be read.
+bool stores_light(std::filesystem::path const& path);
+
 }  // namespace nephroid

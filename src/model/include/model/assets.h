@@ -3,23 +3,29 @@
 #pragma once
 
 #include "image/pyramid.h"
+#include "model/pictures.h"
 #include "scene/scene.h"
 #include "spectrum/runtime.h"
 
+#include <memory>
 #include <vector>
 
 namespace nephroid {
+
+class MeasuredTables;  // a measured material's file; see measured_tables.h
 
 struct TextureData {
     RuntimeSpectrum spectrum;  // of a ConstantSpectrumTexture
     float value = 0;           // of a ConstantFloatTexture
     Transform mapping;         // world -> texture space, where the mapping has one
+    Vec3 direction{0, 1, 0};   // of a DirectionMixTexture, unit
     bool flat = false;         // a constant: needs no coordinates
 };
 struct MaterialData {
-    RuntimeSpectrum eta;         // of a dielectric, thin or a coat
-    RuntimeSpectrum absorption;  // inside, 1 / length
-    int priority = 0;            // of its interior (scene/material.h)
+    RuntimeSpectrum eta;                             // of a dielectric, thin or a coat
+    RuntimeSpectrum absorption;                      // inside, 1 / length
+    std::shared_ptr<MeasuredTables const> measured;  // of a measured material; one of each file
+    int priority = 0;                                // of its interior (scene/material.h)
     bool encloses = false;   // its interior has a priority or absorbs: paths have to know that they are in it
     bool textured = false;   // needs uv and tangents at the hit
     bool oriented = false;   // the shading frame's x axis matters
@@ -37,11 +43,13 @@ class Assets {
     [[nodiscard]] Scene const& scene() const { return *scene_; }
     [[nodiscard]] TextureData const& data(TextureId id) const { return textures_[id.value]; }
     [[nodiscard]] MaterialData const& data(MaterialId id) const { return materials_[id.value]; }
-    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pyramids_[id.value]; }
+    [[nodiscard]] Pyramid const& pyramid(ImageId id) const { return pictures_[id]; }
     /// White light of luminance 1 (D65): what turns an albedo into a colour.
     [[nodiscard]] RuntimeSpectrum const& neutral_illuminant() const { return neutral_; }
     SpectrumStore& spectra() { return spectra_; }
-    [[nodiscard]] std::size_t image_bytes() const;
+    /// Memory of the pictures, and how many files they are.
+    [[nodiscard]] std::size_t image_bytes() const { return pictures_.bytes(); }
+    [[nodiscard]] std::size_t image_files() const { return pictures_.files(); }
     [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes(); }
 
   private:
@@ -50,7 +58,7 @@ class Assets {
     RuntimeSpectrum neutral_;
     std::vector<TextureData> textures_;
     std::vector<MaterialData> materials_;
-    std::vector<Pyramid> pyramids_;
+    Pictures pictures_;
 };
 
 }  // namespace nephroid

@@ -15,4 +15,9 @@ float interface_share(Assets const& assets, MaterialId id, TexturePoint const& a
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf);
 
+/// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.
+inline Spectrum index_lanes(RuntimeSpectrum const& eta, Wavelengths const& lambda) {
+    return lambda.is_rgb() ? Spectrum(eta.rgb().y) : eta.sample(lambda);
+}
+
 }  // namespace nephroid

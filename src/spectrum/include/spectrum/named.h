@@ -22,6 +22,14 @@ struct Sellmeier {
     double b1, c1, b2, c2, b3, c3;
     [[nodiscard]] double index(double lambda_nm) const;
 };
+/// Cauchy's formula, n = a + b / l^2 + c / l^4, l in micrometres.
+struct Cauchy {
+    double a, b, c;
+    [[nodiscard]] double index(double lambda_nm) const;
+};
+/// At each nm of the visible range; nothing where the formula gives no index there.
+std::optional<TabulatedSpd> tabulated(Sellmeier const& formula);
+std::optional<TabulatedSpd> tabulated(Cauchy const& formula);
 std::optional<Sellmeier> sellmeier_glass(std::string_view name);
 
 /// Piecewise linear value; 0 outside the table.

@@ -7,6 +7,7 @@
 #include "sampling/path_sampler.h"
 #include "scene/settings.h"
 #include "spectrum/sensor.h"
+#include "transport/interiors.h"
 #include "world/world.h"
 
 #include <array>
@@ -25,6 +26,8 @@ class RenderJob {
     [[nodiscard]] FilterSampler const& filter() const { return filter_; }
     [[nodiscard]] Sequence const& sequence() const { return sequence_; }
     [[nodiscard]] Sensor const& sensor() const { return sensor_; }
+    /// The bodies that the camera is in.
+    [[nodiscard]] Interiors const& camera_interiors() const { return interiors_; }
     /// Pixels x0 x1 y0 y1 that are rendered.
     [[nodiscard]] std::array<int, 4> crop() const { return crop_; }
 
@@ -39,6 +42,7 @@ class RenderJob {
     Sequence sequence_;
     Sensor sensor_;
     std::array<int, 4> crop_{};
+    Interiors interiors_;
 };
 
 /// Pixels [x0, x1) × [y0, y1).

@@ -73,6 +73,9 @@ class World {
     /// is between them, less than 1 behind mixes with interfaces. Both ends are moved off their surfaces by their error bounds.
     float transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;
 
+    /// Some material has an interior that paths must know they are in.
+    [[nodiscard]] bool encloses() const { return encloses_; }
+
     // --- emission ---------------------------------------------------------------------------------------------------------
     /// Radiance that the surface itself emits towards w.
     Spectrum emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const;
@@ -121,6 +124,7 @@ class World {
     std::unique_ptr<LightTable> lights_;
     std::unique_ptr<WorldParts> parts_;
     Bounds3 bounds_;
+    bool encloses_ = false;
     WorldCounts counts_;
     std::string hash_;
 };
