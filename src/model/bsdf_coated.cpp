@@ -389,7 +389,7 @@ bool closed_form_holds(CoatLayer const& l, Microfacets const& base) {
     float const a = l.facets.smooth() ? 0.0f : alpha_of(l.facets);
     float const b = base.smooth() ? 0.0f : alpha_of(base);
     return tabulated(l.facets) && tabulated(base) && coat_table_covers(l.eta) && l.thickness <= 0.02f &&
-           a <= 0.25f && b >= 0.05f && b >= 1.6f * a;
+           a <= 0.15f && b >= 0.05f && b >= 1.6f * a;
 }
 /// How often light may meet the base among that many events.
 std::uint8_t meetings(CoatLayer const& l) { return static_cast<std::uint8_t>((l.max_depth + 1) / 2); }
