@@ -3,6 +3,7 @@
 
 #include "model/bsdf_ashikhmin_shirley.h"
 #include "model/bsdf_coated.h"
+#include "model/bsdf_coated_closed.h"
 #include "model/bsdf_diffuse.h"
 #include "model/bsdf_measured.h"
 #include "model/bsdf_metallic_roughness.h"
@@ -14,10 +15,10 @@
 
 namespace nephroid {
 
-using Bsdf =
-    std::variant<DiffuseBsdf, DielectricBsdf, ThinDielectricBsdf, ConductorBsdf, RoughConductorBsdf,
-                 RoughDielectricBsdf, DiffuseTransmissionBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf,
-                 PlasticBsdf, AshikhminShirleyBsdf, MeasuredBsdf, MetallicRoughnessBsdf>;
+using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ThinDielectricBsdf, ConductorBsdf, RoughConductorBsdf,
+                          RoughDielectricBsdf, DiffuseTransmissionBsdf, CoatedDiffuseBsdf,
+                          CoatedConductorBsdf, ClosedCoatedConductorBsdf, PlasticBsdf, AshikhminShirleyBsdf,
+                          MeasuredBsdf, MetallicRoughnessBsdf>;
 static_assert(sizeof(Bsdf) <= 144, "a Bsdf is made at every hit, in place: keep it small");
 
 inline BsdfTraits traits(Bsdf const& bsdf) {
