@@ -47,7 +47,9 @@ Place place(Distribution d, float alpha, float eta) {
 /// `part`: 0 reflected, 1 transmitted.
 float glass(Distribution d, float mu, float alpha, float eta, int part) {
     using namespace table;
-    auto const [row, a, n] = place(d, alpha, eta);
+    Place const at = place(d, alpha, eta);
+    int const row = at.row;
+    float const a = at.alpha, n = at.index;
     float const* t =
         nephroid_microfacet_table + kSingle + static_cast<std::size_t>(part) * kGlass + row * kGlassMus;
     // mu by the nodes of this index, which lie alike about the critical angle in both neighbours.

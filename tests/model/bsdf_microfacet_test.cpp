@@ -26,10 +26,10 @@ std::vector<Vec3> some(Microfacets const& m, int k) {
 
 template <class F>
 void for_all(F const& f) {
-    for (auto const& [name, kind] : kDistributions)
+    for (NamedDistribution const& facet : kDistributions)
         for (Vec2 const a : kRoughness) {
-            INFO(name, ", alpha ", a.x, " ", a.y);
-            f(Microfacets{a.x, a.y, kind});
+            INFO(facet.name, ", alpha ", a.x, " ", a.y);
+            f(Microfacets{a.x, a.y, facet.kind});
         }
 }
 
@@ -145,17 +145,17 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
                           {"glass 1.5 from inside", 1 / 1.5f},
                           {"glass 2.4 from outside", 2.4f},
                           {"glass 2.4 from inside", 1 / 2.4f}};
-    for (auto const& [name, kind] : kDistributions)
-        for (auto const& [what, eta] : kinds)
+    for (NamedDistribution const& facet : kDistributions)
+        for (Kind const& boundary : kinds)
             for (bool const anisotropic : {false, true}) {
                 double without = 0, with = 0, average = 0, count = 0;
                 std::string where;
                 for (Vec2 const a : kRoughness)
                     for (float const mu : {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.15f, 0.05f, 0.01f}) {
                         if ((a.x != a.y) != anisotropic) continue;
-                        Microfacets const m{a.x, a.y, kind, false};
+                        Microfacets const m{a.x, a.y, facet.kind, false};
                         Vec3 const wo = direction(std::acos(static_cast<double>(mu)), 0.5);
-                        Parts const p = albedo_by_lattice(m, wo, eta);
+                        Parts const p = albedo_by_lattice(m, wo, boundary.eta);
                         double const single = p.reflected + p.transmitted;
                         // The lobe depends on wi's cosine alone: 2 pi integral f mu dmu, in sqrt(mu).
                         double lobe = 0;
@@ -163,11 +163,12 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
                         for (int i = 0; i < n; ++i) {
                             float const t = (static_cast<float>(i) + 0.5f) / static_cast<float>(n), c = t * t;
                             Vec3 const wi{std::sqrt(1 - c * c), 0, c};
-                            float const f = eta == 0 ? evaluate(reflection_compensation(m, wo), m, wi)
-                                                     : evaluate(dielectric_compensation(m, eta, wo), m, wo,
-                                                                wi, Mode::Importance) +
-                                                           evaluate(dielectric_compensation(m, eta, wo), m,
-                                                                    wo, -wi, Mode::Importance);
+                            float const f = boundary.eta == 0
+                                                ? evaluate(reflection_compensation(m, wo), m, wi)
+                                                : evaluate(dielectric_compensation(m, boundary.eta, wo), m,
+                                                           wo, wi, Mode::Importance) +
+                                                      evaluate(dielectric_compensation(m, boundary.eta, wo),
+                                                               m, wo, -wi, Mode::Importance);
                             lobe += static_cast<double>(f * c * 2 * t) * 2 * kPiD / n;
                         }
                         without = std::max(without, std::abs(single - 1));
@@ -179,9 +180,9 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
                         average += off, ++count;
                     }
                 average /= count;
-                MESSAGE(name, ", ", what, ", ", std::string(anisotropic ? "anisotropic" : "isotropic"),
-                        ": greatest error ", without, " without; with compensation ", with, " (", where,
-                        "), mean ", average);
+                MESSAGE(facet.name, ", ", boundary.name, ", ",
+                        std::string(anisotropic ? "anisotropic" : "isotropic"), ": greatest error ", without,
+                        " without; with compensation ", with, " (", where, "), mean ", average);
                 if (!anisotropic) CHECK(with < without);
                 CHECK(with <= (anisotropic ? 0.15 : 0.03));
                 CHECK(average <= (anisotropic ? 0.09 : 0.005));
@@ -189,10 +190,10 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
 }
 
 TEST_CASE("rough boundaries: towards alpha 0 they become the smooth ones") {
-    for (auto const& [name, kind] : kDistributions)
+    for (NamedDistribution const& facet : kDistributions)
         for (double const theta : {0.2, 0.8, 1.2}) {
-            Microfacets const m{1.1e-3f, 1.1e-3f, kind};
-            INFO(name, ", theta ", theta);
+            Microfacets const m{1.1e-3f, 1.1e-3f, facet.kind};
+            INFO(facet.name, ", theta ", theta);
             Vec3 const wo = direction(theta, 1);
             float const f = fresnel_conductor(wo.z, kCopperEta[1], kCopperK[1]);
             Mean mean;
