@@ -3,8 +3,9 @@
 //
 // A twin is rendered in batches of different seeds, which say how sure its means are. Two things are asked: that the mean
 // of each sphere, channel by channel, is within 1%, or off by no more than chance; and that Welch's test finds no tile of
-// 4 x 4 pixels whose luminance differs. Luminance, because Mitsuba takes its moments of X, Y and Z and writes the variances
-// through the matrix to RGB, which leaves only that of Y a variance.
+// 4 x 4 pixels whose luminance differs. (Glass that shows a small light is too noisy for a percent, and mostly not so with
+// NEPHROID_FULL.) Luminance, because Mitsuba takes its moments of X, Y and Z and writes the variances through the matrix to
+// RGB, which leaves only that of Y a variance.
 //
 // What differs lies in Mitsuba's models, and is said at the balls and twins below:
 // - coats: the light that a rough boundary lets through, and sends back inside, is computed with the shadowing of the two directions
@@ -170,9 +171,11 @@ std::filesystem::path prepared_folder(std::filesystem::path const& data) {
     return folder;
 }
 
-/// The worst of all balls and channels, as difference and standard error, both relative.
+/// The worst of all balls and channels, as difference and standard error, both relative; and how many are so noisy that chance alone
+/// may take them off by a percent.
 struct Worst {
-    double off = 0, error = 0;
+    double off = 0, error = kInfinity;
+    int noisy = 0;
 };
 
 Worst compare_balls(Twin const& twin, std::vector<Image> const& ours, Image const& theirs) {
@@ -206,7 +209,9 @@ Worst compare_balls(Twin const& twin, std::vector<Image> const& ours, Image cons
             CAPTURE(off);
             CAPTURE(error);
             CHECK((std::abs(off) < ball.tolerance || m.p(expected) > alpha));
-            if (std::abs(off) > std::abs(worst.off)) worst = {off, error};
+            if (error > 0.004) ++worst.noisy;
+            if (std::abs(off) - 2 * error > std::abs(worst.off) - 2 * worst.error)
+                worst.off = off, worst.error = error;
         }
     }
     return worst;
@@ -270,11 +275,12 @@ TEST_CASE("spheres of every surface agree with Mitsuba's") {
         WelchResult const tiles = compare_tiles(twin, ours, theirs, picture("_var"));
         auto const at = std::min_element(tiles.p.begin(), tiles.p.end()) - tiles.p.begin();
         char line[256];
-        std::snprintf(
-            line, sizeof line,
-            "%-34s worst mean %+.2f%% (noise %.2f%%)   worst tile p %.1e at (%d, %d), of all %.2g   %s",
-            twin.name, 100 * ball.off, 100 * ball.error, tiles.smallest, static_cast<int>(at) % tiles.tiles_x,
-            static_cast<int>(at) / tiles.tiles_x, tiles.corrected, twin.bumps ? "bumps" : "asserted");
+        std::snprintf(line, sizeof line,
+                      "%-34s worst mean %+.2f%% (noise %.2f%%; %d above 0.4%%)   worst tile p %.1e at "
+                      "(%d, %d), of all %.2g   %s",
+                      twin.name, 100 * ball.off, 100 * ball.error, ball.noisy, tiles.smallest,
+                      static_cast<int>(at) % tiles.tiles_x, static_cast<int>(at) / tiles.tiles_x,
+                      tiles.corrected, twin.bumps ? "bumps" : "asserted");
         MESSAGE(std::string(line));
         if (!twin.bumps) CHECK(tiles.corrected > test::sidak(std::size(kTwins)));
     }
