@@ -1,6 +1,7 @@
 // Kernels one by one: what each number, direction, texel and ray costs. Arguments come from tables of 4096 entries, so that
 // neither the branch predictor nor the optimiser knows them. `--benchmark_filter=…` chooses among them.
 #include "film/film.h"
+#include "measured_maker.h"
 #include "model/camera.h"
 #include "model/filter.h"
 #include "model/fresnel.h"
@@ -166,6 +167,59 @@ void color() {
 
 // ---- surfaces --------------------------------------------------------------------------------------------------------------
 
+/// Every scattering model, as a scene file asks for it.
+struct NamedMaterial {
+    char const* name;
+    char const* parameters;  // of Material, the type first
+};
+constexpr NamedMaterial kMaterials[] = {
+    {"diffuse", R"("diffuse")"},
+    {"diffusetransmission", R"("diffusetransmission")"},
+    {"dielectric", R"("dielectric")"},
+    {"thindielectric", R"("thindielectric")"},
+    {"conductor", R"("conductor")"},
+    {"rough_conductor", R"("conductor" "float roughness" 0.1)"},
+    {"rough_conductor/beckmann", R"("conductor" "float roughness" 0.1 "string distribution" "beckmann")"},
+    {"rough_conductor/blinn", R"("conductor" "float roughness" 0.1 "string distribution" "blinn")"},
+    {"rough_conductor/multiscatter", R"("conductor" "float roughness" 0.1 "bool multiscatter" true)"},
+    {"rough_dielectric", R"("dielectric" "float roughness" 0.1)"},
+    {"rough_dielectric/beckmann", R"("dielectric" "float roughness" 0.1 "string distribution" "beckmann")"},
+    {"rough_dielectric/blinn", R"("dielectric" "float roughness" 0.1 "string distribution" "blinn")"},
+    {"rough_dielectric/multiscatter", R"("dielectric" "float roughness" 0.1 "bool multiscatter" true)"},
+    {"coateddiffuse/closed", R"("coateddiffuse" "float roughness" 0.1 "string layers" "closed")"},
+    {"coateddiffuse/stochastic", R"("coateddiffuse" "float roughness" 0.1 "string layers" "stochastic")"},
+    {"coatedconductor/closed", R"("coatedconductor" "float interface.roughness" 0.01
+        "float conductor.roughness" 0.1 "string layers" "closed")"},
+    {"coatedconductor/stochastic", R"("coatedconductor" "float interface.roughness" 0.01
+        "float conductor.roughness" 0.1 "string layers" "stochastic")"},
+    {"plastic", R"("plastic" "float roughness" 0.1)"},
+    {"ashikhminshirley", R"("ashikhminshirley")"},
+    {"measured", R"("measured" "string filename" "made.bsdf")"},
+    {"metallicroughness/plastic", R"("metallicroughness" "float metallic" 0 "float roughness" 0.5)"},
+    {"metallicroughness/metal", R"("metallicroughness" "float roughness" 0.5)"},
+    {"metallicroughness/glass", R"("metallicroughness" "float metallic" 0 "float roughness" 0.5
+        "float transmission" 1 "bool thinwalled" false)"},
+    {"metallicroughness/coat_and_sheen", R"("metallicroughness" "float metallic" 0 "float roughness" 0.5
+        "float clearcoat" 1 "rgb sheencolor" [1 1 1] "float sheenroughness" 0.5)"}};
+
+std::vector<std::pair<std::string, Bsdf>> models() {
+    // A measured material is made by the recipe of the tests of that model, and read once: the file may go.
+    test::MadeFile const made(test::measure(test::MeasuredPlan{}).file());
+    std::string text = "WorldBegin\n";
+    for (NamedMaterial const& m : kMaterials)
+        text += "Material " + std::string(m.parameters) + "\nShape \"sphere\"\n";
+    if (auto const at = text.find("made.bsdf"); at != std::string::npos) text.replace(at, 9, made.path());
+    static World const world = compile(read_pbrt_string(text, "materials", ""));  // tables stay there
+    std::vector<std::pair<std::string, Bsdf>> list;
+    auto const& objects = world.scene().world().objects;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        Bsdf bsdf;
+        make_bsdf(world.assets(), objects[i].material, {}, Wavelengths::spectral(0.3f), bsdf);
+        list.emplace_back(kMaterials[i].name, bsdf);
+    }
+    return list;
+}
+
 void scattering() {
     add("fresnel/dielectric", upper_directions(), [](Vec3 w) { return fresnel_dielectric(w.z, 1.5f); });
     add("fresnel/conductor", upper_directions(), [](Vec3 w) { return fresnel_conductor(w.z, 0.2f, 3.9f); });
@@ -173,48 +227,14 @@ void scattering() {
         return fresnel_conductor(w.z, Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f));
     });
 
-    // Every model once, and microfacets in each of their kinds.
-    struct Named {
-        char const* name;
-        Bsdf bsdf;
-    };
-    auto const facets = [](Distribution kind, bool multiscatter) {
-        return Microfacets{0.3f, 0.3f, kind, multiscatter};
-    };
-    auto const metal = [&](Distribution kind, bool multiscatter) {
-        return RoughConductorBsdf{Spectrum(0.2f, 0.3f, 0.5f, 1.1f), Spectrum(3.9f, 3.0f, 2.5f, 2.2f),
-                                  facets(kind, multiscatter)};
-    };
-    auto const glass = [&](Distribution kind, bool multiscatter) {
-        return RoughDielectricBsdf{1.5f, false, facets(kind, multiscatter)};
-    };
-    using enum Distribution;
-    std::vector<Named> const models{{"diffuse", DiffuseBsdf{Spectrum(0.5f)}},
-                                    {"dielectric", DielectricBsdf{Spectrum(1.5f), false}},
-                                    {"thindielectric", ThinDielectricBsdf{Spectrum(1.5f)}},
-                                    {"conductor", ConductorBsdf{Spectrum(0.2f), Spectrum(3.9f)}},
-                                    {"rough_conductor", metal(TrowbridgeReitz, false)},
-                                    {"rough_conductor/beckmann", metal(Beckmann, false)},
-                                    {"rough_conductor/blinn", metal(Blinn, false)},
-                                    {"rough_conductor/multiscatter", metal(TrowbridgeReitz, true)},
-                                    {"rough_dielectric", glass(TrowbridgeReitz, false)},
-                                    {"rough_dielectric/beckmann", glass(Beckmann, false)},
-                                    {"rough_dielectric/blinn", glass(Blinn, false)},
-                                    {"rough_dielectric/multiscatter", glass(TrowbridgeReitz, true)},
-                                    {"diffusetransmission", DiffuseTransmissionBsdf{}},
-                                    {"coateddiffuse", CoatedDiffuseBsdf{}},
-                                    {"coatedconductor", CoatedConductorBsdf{}},
-                                    {"plastic", PlasticBsdf{}},
-                                    {"ashikhminshirley", AshikhminShirleyBsdf{}},
-                                    {"metallic_roughness", MetallicRoughnessBsdf{}}};
-    for (auto const& [name, bsdf] : models) {
+    for (auto const& [name, bsdf] : models()) {
         Vec3 const wo{0.6f, 0, 0.8f};
-        add(std::string("bsdf/sample/") + name, squares(), [b = bsdf, wo](Vec2 u) {
+        add("bsdf/sample/" + name, squares(), [b = bsdf, wo](Vec2 u) {
             return sample(b, wo, u.x, u, Mode::Radiance, HemisphereSampling::Cosine);
         });
-        add(std::string("bsdf/evaluate/") + name, upper_directions(),
+        add("bsdf/evaluate/" + name, upper_directions(),
             [b = bsdf, wo](Vec3 wi) { return evaluate(b, wo, wi, Mode::Radiance); });
-        add(std::string("bsdf/pdf/") + name, upper_directions(),
+        add("bsdf/pdf/" + name, upper_directions(),
             [b = bsdf, wo](Vec3 wi) { return pdf(b, wo, wi, HemisphereSampling::Cosine); });
     }
     add("frame/from_z", directions(), [](Vec3 n) { return frame_from_z(n); });
