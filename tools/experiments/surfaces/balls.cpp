@@ -40,24 +40,24 @@ std::vector<Group> groups() {
         {"Diffuse and coated",
          "balls-coated.png",
          {{"diffuse", "Material \"diffuse\" \"rgb reflectance\" [ 0.7 0.35 0.15 ]"},
-          {"diffusetransmission",
+          {"transmission",
            "Material \"diffusetransmission\" \"rgb reflectance\" [ 0.3 0.3 0.1 ] \"rgb transmittance\" [ 0.6 "
            "0.25 0.1 ]"},
           {"coateddiffuse", "Material \"coateddiffuse\" " + blue + " \"float roughness\" 0.02" + raw},
-          {"coatedconductor",
+          {"coated metal",
            "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Cu-eta\" "
            "\"spectrum conductor.k\" \"metal-Cu-k\" \"float conductor.roughness\" 0.3 "
            "\"float interface.roughness\" 0.005 \"rgb albedo\" [ 0.9 0.4 0.3 ] \"float "
            "thickness\" 0.3" +
                raw},
           {"plastic", "Material \"plastic\" " + blue + " \"float roughness\" 0.1" + raw},
-          {"ashikhminshirley", "Material \"ashikhminshirley\" " + blue +
-                                   " \"rgb specular\" [ 0.2 0.2 0.2 ] \"float nu\" 10 \"float nv\" 500"}}},
+          {"ashikhmin", "Material \"ashikhminshirley\" " + blue +
+                            " \"rgb specular\" [ 0.2 0.2 0.2 ] \"float nu\" 10 \"float nv\" 500"}}},
         {"Metals",
          "balls-metals.png",
          {{"gold, smooth", "Material \"conductor\" " + gold},
           {"copper, rough", "Material \"conductor\" \"float roughness\" 0.3" + raw},
-          {"al, anisotropic",
+          {"aniso. al",
            "Material \"conductor\" \"spectrum eta\" \"metal-Al-eta\" \"spectrum k\" "
            "\"metal-Al-k\" \"float uroughness\" 0.4 \"float vroughness\" 0.05" +
                raw},
@@ -82,7 +82,7 @@ std::vector<Group> groups() {
           {"absorbing",
            "Material \"dielectric\" \"rgb attenuationcolor\" [ 0.15 0.6 0.35 ] \"float attenuationdistance\" "
            "1"},
-          {"thindielectric", "Material \"thindielectric\"", "", "", true}}},
+          {"thin", "Material \"thindielectric\"", "", "", true}}},
         {"glTF's metallic-roughness",
          "balls-gltf.png",
          {{"metal", gltf("\"rgb basecolor\" [ 0.9 0.6 0.35 ] \"float metallic\" 1 \"float roughness\" 0.4")},
@@ -105,7 +105,9 @@ std::vector<Group> groups() {
            "Texture \"chart\" \"spectrum\" \"imagemap\" \"string filename\" \"chart.tga\" \"string filter\" "
            "\"trilinear\" \"float uscale\" 4 \"float vscale\" 2\n"},
           {"normal map",
-           "Material \"conductor\" \"float roughness\" 0.1 \"string normalmap\" \"studs.png\"" + raw},
+           "Material \"plastic\" \"rgb reflectance\" [ 0.6 0.1 0.08 ] \"float roughness\" 0.1 \"string "
+           "normalmap\" \"studs.png\"" +
+               raw},
           {"bumps",
            "Material \"plastic\" \"rgb reflectance\" [ 0.6 0.5 0.35 ] \"texture displacement\" "
            "\"bumps\"",
@@ -117,14 +119,14 @@ std::vector<Group> groups() {
           {"marble", "Material \"plastic\" \"texture reflectance\" \"stone\"",
            "Texture \"stone\" \"spectrum\" \"marble\" \"float scale\" 2\n"},
           {"rough by dots", "Material \"conductor\" " + gold + " \"texture roughness\" \"spots\"" + raw,
-           "Texture \"spots\" \"float\" \"dots\" \"float inside\" 0.02 \"float outside\" 0.4 \"float "
-           "uscale\" 16 \"float vscale\" 8\n"}}},
+           "Texture \"spots\" \"float\" \"dots\" \"float inside\" 0.02 \"float outside\" 0.5 \"float "
+           "uscale\" 8 \"float vscale\" 4\n"}}},
     };
 }
 
-/// Half balls, 16 by 8 of them, as normals of a surface whose uv are those of the picture.
+/// Half balls, 8 by 4 of them, as normals of a surface whose uv are those of the picture.
 void write_studs(std::filesystem::path const& path) {
-    constexpr int kWidth = 512, kHeight = 256, kStud = 32;
+    constexpr int kWidth = 512, kHeight = 256, kStud = 64;
     Image image(PixelFormat::U8, kWidth, kHeight, default_channel_names(3));
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
@@ -181,17 +183,17 @@ void material_balls(Lab const& lab) {
         std::vector<std::string> labels;
         std::vector<std::vector<std::string>> rows;
         for (Ball const& b : g.balls) {
-            Reference const r = reference_by_samples(setup(lab, b, lab.pixels(108)), directives, passes);
+            Reference const r = reference_by_samples(setup(lab, b, lab.pixels(112)), directives, passes);
             // All balls are exposed like the first one.
-            if (exposure == 0) exposure = 1.25 * exposure_for(r.picture, 0.97);
+            if (exposure == 0) exposure = 0.9 * exposure_for(r.picture, 0.97);
             row.pictures.push_back(r.picture);
             labels.push_back(b.label);
-            rows.push_back({b.label, "`" + b.material + "`", number(mean(r.picture)), percent(r.error)});
+            rows.push_back({b.label + ": `" + b.material + "`", number(mean(r.picture)), percent(r.error)});
         }
         row.exposure = exposure;
         write_sheet(page.file(g.file), labels, {row});
         page.image(g.file, g.title);
-        page.table({"", "", "mean radiance", "error"}, rows);
+        page.table({"", "mean radiance", "error"}, rows);
     }
     page.text(
         "The measured material is no real sample's: its file is made by the recipe of Dupuy & Jakob 2018 "

@@ -20,8 +20,8 @@ void mesh_figure(Lab const& lab) {
         "`scenes/meshes`, in the Cornell box.");
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
     page.code(directives);
-    int const pixels = lab.pixels(150);
-    std::uint64_t const many = lab.passes(1024);
+    int const pixels = lab.pixels(140);
+    std::uint64_t const many = lab.passes(320);
     std::vector<SheetRow> sheet;
     std::vector<std::vector<std::string>> rows;
     for (std::string const material : {"mirror", "glass"}) {

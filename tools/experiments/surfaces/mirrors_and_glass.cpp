@@ -35,7 +35,7 @@ std::vector<Way> const& ways() {
 
 void pictures(Lab const& lab) {
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
-    std::uint64_t const passes = lab.passes(256);
+    std::uint64_t const passes = lab.passes(400);
     SheetRow row{"", {}, 1};
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
@@ -46,14 +46,14 @@ void pictures(Lab const& lab) {
                             stage::scenes());
         row.pictures.push_back(render_picture(setup, directives, passes, 1));
         labels.push_back(w.label);
-        rows.push_back({w.label, "`" + w.material + "`", number(mean(row.pictures.back()))});
+        rows.push_back({w.label + ": `" + w.material + "`", number(mean(row.pictures.back()))});
     }
-    row.exposure = exposure_for(row.pictures.front(), 0.97);
+    row.exposure = exposure_for(row.pictures.front(), 0.9);
     write_sheet(lab.page.file("delta.png"), labels, {row});
     lab.page.image("delta.png",
                    "A sphere in the Cornell box: mirrors and glasses, with Fresnel's equations "
                    "and without");
-    lab.page.table({"", "", "mean radiance"}, rows);
+    lab.page.table({"", "mean radiance"}, rows);
     lab.page.text(
         fmt::format("{} samples a pixel. Without Fresnel's equations a mirror throws back all light, and a "
                     "glass lets all "

@@ -34,7 +34,8 @@ void slabs(Lab const& lab) {
             "[ 1 1 1 ]\n" +
                 slab(0, 4, 0.1, outer) + slab(1, 3, 0.4, inner),
             ".");
-        Picture const p = render_picture(setup, "Integrator \"path\"\nSampler \"zsobol\"", lab.passes(64), 1);
+        Picture const p = render_picture(
+            setup, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(64), 1);
         double const formula = std::exp(inner > outer ? -(2 * 0.1 + 2 * 0.4) : -4 * 0.1);
         rows.push_back({name, number(mean(p), 5), number(formula, 5)});
     }

@@ -32,12 +32,12 @@ std::string studio(int width, int height) {
         R"(Film "rgb" "integer xresolution" {} "integer yresolution" {}
 Scale -1 1 1
 LookAt 0 -7.5 3.1  0 0 1.05  0 0 1
-Camera "perspective" "float fov" 22.5
+Camera "perspective" "float fov" 21
 WorldBegin
 LightSource "infinite" "rgb L" [ 0.75 0.87 1 ] "float scale" 0.45
 AttributeBegin
-    AreaLightSource "diffuse" "rgb L" [ 1 0.93 0.83 ] "float scale" 9
-    Shape "quad" "point3 origin" [ -5.2 -2.6 4.4 ] "vector3 u" [ 1.4 1.2 1.5 ] "vector3 v" [ 1.6 -1.9 0 ]
+    AreaLightSource "diffuse" "rgb L" [ 1 0.93 0.83 ] "float scale" 3.4
+    Shape "quad" "point3 origin" [ -6 -2.4 4.2 ] "vector3 u" [ 2.3 1.9 2.4 ] "vector3 v" [ 2.6 -3.1 0 ]
 AttributeEnd
 AttributeBegin
     AreaLightSource "diffuse" "rgb L" [ 0.8 0.9 1 ] "float scale" 5 "bool twosided" true
