@@ -122,8 +122,6 @@ void check_texture(Check const& c, Texture const& texture) {
 
 void check_material(Check const& c, Material const& material) {
     check_ids(c, material, "the material");
-    check_finite(c, material.kind, "the material");
-    check_finite(c, material.normal_map, "the normal map");
     match(
         material.kind,
         [&](DiffuseMaterial const& m) {
@@ -171,6 +169,8 @@ void check_material(Check const& c, Material const& material) {
             c.require(m.amount.valid(), "the mix names no amount: name a float texture");
         },
         [](InterfaceMaterial const&) {});
+    check_finite(c, material.kind, "the material");
+    check_finite(c, material.normal_map, "the normal map");
 }
 
 }  // namespace nephroid

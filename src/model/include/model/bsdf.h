@@ -3,6 +3,7 @@
 
 #include "model/bsdf_ashikhmin_shirley.h"
 #include "model/bsdf_coated.h"
+#include "model/bsdf_coated_closed.h"
 #include "model/bsdf_diffuse.h"
 #include "model/bsdf_measured.h"
 #include "model/bsdf_metallic_roughness.h"
@@ -14,10 +15,10 @@
 
 namespace nephroid {
 
-using Bsdf =
-    std::variant<DiffuseBsdf, DielectricBsdf, ThinDielectricBsdf, ConductorBsdf, RoughConductorBsdf,
-                 RoughDielectricBsdf, DiffuseTransmissionBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf,
-                 PlasticBsdf, AshikhminShirleyBsdf, MeasuredBsdf, MetallicRoughnessBsdf>;
+using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ThinDielectricBsdf, ConductorBsdf, RoughConductorBsdf,
+                          RoughDielectricBsdf, DiffuseTransmissionBsdf, CoatedDiffuseBsdf,
+                          CoatedConductorBsdf, ClosedCoatedConductorBsdf, PlasticBsdf, AshikhminShirleyBsdf,
+                          MeasuredBsdf, MetallicRoughnessBsdf>;
 static_assert(sizeof(Bsdf) <= 144, "a Bsdf is made at every hit, in place: keep it small");
 
 inline BsdfTraits traits(Bsdf const& bsdf) {
@@ -41,8 +42,9 @@ inline std::optional<BsdfSample> sample(Bsdf const& bsdf, Vec3 wo, float uc, Vec
 inline Spectrum albedo(Bsdf const& bsdf, Vec3 wo) {
     return match(bsdf, [&](auto const& b) { return albedo(b, wo); });
 }
-/// The deterministic branches of its smooth parts, for Whitted's tree.
-inline DeltaBranches delta_branches(Bsdf const& bsdf, Vec3 wo, Mode mode) {
+/// The deterministic branches of its smooth parts, for Whitted's tree. (A template, lest a model without any turn into a sum.)
+template <std::same_as<Bsdf> Sum>
+DeltaBranches delta_branches(Sum const& bsdf, Vec3 wo, Mode mode) {
     return match(bsdf, [&](auto const& b) {
         if constexpr (requires { delta_branches(b, wo, mode); })
             return delta_branches(b, wo, mode);

@@ -34,7 +34,9 @@ inline BsdfTraits traits(CoatedDiffuseBsdf const& b) {
     return {.chooses = true, .hero_only = b.coat.dispersive};
 }
 inline BsdfTraits traits(CoatedConductorBsdf const& b) {
-    return {.chooses = true, .hero_only = b.coat.dispersive};
+    return {.delta = b.facets.smooth() && b.coat.facets.smooth() && b.coat.albedo.is_black(),
+            .chooses = true,
+            .hero_only = b.coat.dispersive};
 }
 NEPHROID_BSDF(CoatedDiffuseBsdf);
 NEPHROID_BSDF(CoatedConductorBsdf);
