@@ -118,9 +118,9 @@ std::vector<Group> groups() {
            "\"texture alpha\" \"holes\"", true},
           {"marble", "Material \"plastic\" \"texture reflectance\" \"stone\"",
            "Texture \"stone\" \"spectrum\" \"marble\" \"float scale\" 2\n"},
-          {"rough by dots", "Material \"conductor\" " + gold + " \"texture roughness\" \"spots\"" + raw,
-           "Texture \"spots\" \"float\" \"dots\" \"float inside\" 0.02 \"float outside\" 0.5 \"float "
-           "uscale\" 8 \"float vscale\" 4\n"}}},
+          {"rough, checks", "Material \"conductor\" " + gold + " \"texture roughness\" \"checks\"" + raw,
+           "Texture \"checks\" \"float\" \"checkerboard\" \"float tex1\" 0.01 \"float tex2\" 0.4 \"float "
+           "uscale\" 10 \"float vscale\" 6\n"}}},
     };
 }
 

@@ -28,7 +28,7 @@ void mesh_figure(Lab const& lab) {
         Setup const setup =
             stage::faithful(stage::cornell(pixels) +
                                 "AttributeBegin\nTranslate 278 220 290\nRotate -25 0 1 0\nRotate 20 1 0 "
-                                "0\nScale 58 58 58\n" +
+                                "0\nScale 66 66 66\n" +
                                 (material == "mirror" ? "Material \"conductor\" \"spectrum eta\" "
                                                         "\"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\""
                                                       : "Material \"dielectric\"") +

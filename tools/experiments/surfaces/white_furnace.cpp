@@ -75,9 +75,9 @@ std::vector<Furnace> furnaces() {
         R"("string type" "conductor" "rgb eta" [ 0 0 0 ] "rgb k" [ 0 0 0 ] "float roughness" {})" + raw;
     std::string const glass = R"("string type" "dielectric" "float roughness" {})" + raw;
     std::string const coat =
-        R"("string type" "coateddiffuse" "rgb reflectance" [ 1 1 1 ] "float roughness" {} "float thickness" 0.001 "integer maxdepth" 255 "string layers" )";
+        R"("string type" "coateddiffuse" "rgb reflectance" [ 1 1 1 ] "float roughness" {} "float thickness" 0.0001 "integer maxdepth" 255 "string layers" )";
     std::string const coated_metal =
-        R"("string type" "coatedconductor" "rgb conductor.eta" [ 0 0 0 ] "rgb conductor.k" [ 0 0 0 ] "float conductor.roughness" 0.2 "float interface.roughness" {} "float thickness" 0.001 "integer maxdepth" 255 "string layers" )";
+        R"("string type" "coatedconductor" "rgb conductor.eta" [ 0 0 0 ] "rgb conductor.k" [ 0 0 0 ] "float conductor.roughness" 0.2 "float interface.roughness" {} "float thickness" 0.0001 "integer maxdepth" 255 "string layers" )";
     std::string const plastic =
         R"("string type" "plastic" "rgb reflectance" [ 1 1 1 ] "float roughness" {})" + raw;
     return {{"conductor, F = 1", "furnace-conductor.svg", metal},
@@ -93,6 +93,32 @@ std::vector<Furnace> furnaces() {
             {"plastic, white", "furnace-plastic.svg", plastic}};
 }
 
+/// A table of what is largest over the angles, a row a surface and a column an alpha.
+class Summary {
+  public:
+    void begin(std::string const& title) { row_ = {title}, worst_ = {}, most_ = {}; }
+    void add(double alpha, double angle, double value) {
+        if (std::abs(value) > std::abs(most_)) most_ = value;
+        if (std::abs(value) <= std::abs(worst_)) return;
+        worst_ = value;
+        where_ = fmt::format("alpha {}, {}°", number(alpha, 2), number(angle, 2));
+    }
+    void end_alpha() { row_.push_back(fixed(most_, 4)), most_ = 0; }
+    void end() { row_.push_back(where_), rows_.push_back(row_); }
+    void write(Page& page) const {
+        std::vector<std::string> head{""};
+        for (double const a : kAlphas) head.push_back("alpha " + number(a, 2));
+        head.emplace_back("largest at");
+        page.table(head, rows_);
+    }
+
+  private:
+    std::vector<std::vector<std::string>> rows_;
+    std::vector<std::string> row_;
+    std::string where_;
+    double worst_ = 0, most_ = 0;
+};
+
 std::string with_alpha(std::string material, double alpha) {
     return material.replace(material.find("{}"), 2, number(alpha, 3));
 }
@@ -105,45 +131,60 @@ void white_furnace(Lab const& lab) {
     std::uint64_t const samples = lab.quick ? 256 : 1 << 16;
     page.text(fmt::format(
         "The directional albedo: what is scattered at all of light from one direction, the mean of f·|cos|/p "
-        "over {} samples of the scattering function. Nothing here absorbs, so that 1 is right.",
+        "over {} samples of the scattering function. Nothing here absorbs, so that 1 is right. (A coat is a "
+        "layer that takes some light even without a medium, in proportion to its thickness, as in pbrt-v4: "
+        "here it is 0.0001 thick.)",
         samples));
-    std::vector<std::vector<std::string>> summary;
+    Summary deviation;
+    std::vector<std::vector<Line>> all;
     double largest_error = 0;
     for (Furnace const& f : furnaces()) {
         std::vector<Line> lines;
-        double worst = 0;
-        std::vector<std::string> row{f.title};
-        std::string where;
+        deviation.begin(f.title);
         for (double const alpha : kAlphas) {
             Setup const setup = holder(with_alpha(f.material, alpha));
             Bsdf const bsdf = bsdf_of(setup.world);
             Line line{"alpha " + number(alpha, 2), {}, {}, {}};
-            double off = 0;
             for (double const angle : kAngles) {
                 Estimate const e = albedo_by_samples(bsdf, angle, samples);
                 line.x.push_back(angle), line.y.push_back(e.mean);
                 largest_error = std::max(largest_error, e.error);
-                if (std::abs(e.mean - 1) > std::abs(off)) off = e.mean - 1;
-                if (std::abs(e.mean - 1) > worst)
-                    worst = std::abs(e.mean - 1),
-                    where = fmt::format("alpha {}, {}°", number(alpha, 2), number(angle, 2));
+                deviation.add(alpha, angle, e.mean - 1);
             }
-            row.push_back(fixed(off, 4));
+            deviation.end_alpha();
             lines.push_back(std::move(line));
         }
-        row.push_back(where);
-        summary.push_back(row);
+        deviation.end();
         page.save(f.file, line_plot(f.title, {"angle of incidence, degrees", false, {0, 30, 60, 90}},
                                     {"directional albedo", false}, lines));
         page.image(f.file, "Directional albedo over the angle: " + f.title);
+        all.push_back(std::move(lines));
     }
     page.text(fmt::format(
         "The largest deviation from 1 over {} angles from 0° to 89° (standard errors are at most {}):",
         kAngles.size(), number(largest_error, 2)));
-    std::vector<std::string> head{""};
-    for (double const a : kAlphas) head.push_back("alpha " + number(a, 2));
-    head.emplace_back("largest at");
-    page.table(head, summary);
+    deviation.write(page);
+    page.text(
+        "A rough coat takes its share each time that light passes it or is thrown back by it from inside, "
+        "and "
+        "light below a coat meets it again and again: what is lost is many times what a single boundary "
+        "loses. "
+        "Random walks and closed forms agree on it, as far as the closed forms go:");
+    Summary difference;
+    for (std::size_t const walks : {4u, 6u}) {
+        difference.begin(walks == 4 ? "coateddiffuse, closed form less walks"
+                                    : "coatedconductor, closed form less walks");
+        for (std::size_t k = 0; k < kAlphas.size(); ++k) {
+            for (std::size_t i = 0; i < kAngles.size(); ++i)
+                difference.add(kAlphas[k], kAngles[i], all[walks + 1][k].y[i] - all[walks][k].y[i]);
+            difference.end_alpha();
+        }
+        difference.end();
+    }
+    difference.write(page);
+    page.text(
+        "By default a metal's coat is in closed form only where that is within 2% of the walks "
+        "([decision 7](../decisions/0007-coats-in-closed-form.md)).");
 }
 
 }  // namespace nephroid::experiment
