@@ -183,7 +183,7 @@ void material_balls(Lab const& lab) {
         std::vector<std::string> labels;
         std::vector<std::vector<std::string>> rows;
         for (Ball const& b : g.balls) {
-            Reference const r = reference_by_samples(setup(lab, b, lab.pixels(112)), directives, passes);
+            Reference const r = reference_by_samples(setup(lab, b, lab.pixels(104)), directives, passes);
             // All balls are exposed like the first one.
             if (exposure == 0) exposure = 0.9 * exposure_for(r.picture, 0.97);
             row.pictures.push_back(r.picture);

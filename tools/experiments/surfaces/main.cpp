@@ -25,7 +25,6 @@ void introduction(Page& page) {
     page.list({
         "**Error** of a picture is its relative RMSE, as a share of its mean, from two renders that do not "
         "know of each other.",
-        "± is one standard error.",
         "**alpha** is the roughness of the microfacet distributions; `roughness` in a scene file is "
         "alpha² unless `remaproughness` is false, as it is in all scenes here.",
         "**Compensation** is the option `multiscatter`: what microfacets reflect among themselves comes "

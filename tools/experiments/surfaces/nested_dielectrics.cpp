@@ -51,11 +51,11 @@ void nested_dielectrics(Lab const& lab) {
         "`scenes/iced-juice.pbrt`: bodies that overlap, the one of the highest priority being there, and "
         "absorption inside.");
     Setup setup{stage::prepare_file("iced-juice.pbrt")};
-    int const width = lab.pixels(240);
+    int const width = lab.pixels(200);
     setup.settings.film.resolution = {width, width * 9 / 8};
     SheetRow row{"", {}, 1};
     row.pictures.push_back(render_picture(
-        setup, "Integrator \"path\" \"integer maxdepth\" 32\nSampler \"zsobol\"", lab.passes(768), 1));
+        setup, "Integrator \"path\" \"integer maxdepth\" 32\nSampler \"zsobol\"", lab.passes(512), 1));
     write_sheet(page.file("iced-juice.png"), {}, {row});
     page.image("iced-juice.png", "A tumbler of juice with ice and a straw");
     page.text(

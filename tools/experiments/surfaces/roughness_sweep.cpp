@@ -26,9 +26,8 @@ std::string rough(std::string const& material, double u, double v, std::string c
         material, u, v, distribution, compensated);
 }
 
-Picture picture_of(Lab const& lab, std::string const& material) {
-    Setup const setup =
-        stage::faithful(stage::studio(lab.pixels(64), lab.pixels(64)) + material + stage::ball(), ".");
+Picture picture_of(Lab const& lab, int side, std::string const& material) {
+    Setup const setup = stage::faithful(stage::studio(side, side) + material + stage::ball(), ".");
     return render_picture(setup, kPath, lab.passes(160), 1);
 }
 
@@ -49,13 +48,14 @@ void isotropic(Lab const& lab) {
     for (std::string const d : kDistributions) kinds.push_back({"plastic " + d, kPlastic, d, false});
     std::vector<SheetRow> rows;
     std::vector<std::string> columns;
-    for (double const a : kAlphas) columns.push_back(number(a, 2));
+    for (double const a : kAlphas) columns.push_back(fmt::format("{}", a));
     double exposure = 0;
     for (Kind const& k : kinds) {
         SheetRow row{k.label, {}, 1};
         for (double const a : kAlphas)
-            row.pictures.push_back(picture_of(lab, rough(k.material, a, a, k.distribution, k.compensated)));
-        if (exposure == 0) exposure = exposure_for(row.pictures.back(), 0.97);
+            row.pictures.push_back(
+                picture_of(lab, lab.pixels(48), rough(k.material, a, a, k.distribution, k.compensated)));
+        if (exposure == 0) exposure = 0.75 * exposure_for(row.pictures.back(), 0.97);
         row.exposure = exposure;
         rows.push_back(std::move(row));
     }
@@ -66,13 +66,12 @@ void isotropic(Lab const& lab) {
 void anisotropic(Lab const& lab) {
     std::vector<SheetRow> rows;
     std::vector<std::string> columns;
-    for (double const x : kSides) columns.push_back("ax " + number(x, 2));
+    for (double const x : kSides) columns.push_back("ax " + fmt::format("{}", x));
     double exposure = 0;
     for (double const y : kSides) {
-        SheetRow row{"ay " + number(y, 2), {}, 1};
-        for (std::string const& material : {kMetal})
-            for (double const x : kSides)
-                row.pictures.push_back(picture_of(lab, rough(material, x, y, "ggx", false)));
+        SheetRow row{"ay " + fmt::format("{}", y), {}, 1};
+        for (double const x : kSides)
+            row.pictures.push_back(picture_of(lab, lab.pixels(60), rough(kMetal, x, y, "ggx", false)));
         if (exposure == 0) exposure = exposure_for(row.pictures.back(), 0.97);
         row.exposure = exposure;
         rows.push_back(std::move(row));
@@ -86,7 +85,7 @@ void anisotropic(Lab const& lab) {
 /// What a sphere gives back of a white sky, if facets themselves absorb nothing.
 void albedos(Lab const& lab, std::string const& what, std::string const& material) {
     std::vector<std::string> head{what};
-    for (double const a : kAlphas) head.push_back("alpha " + number(a, 2));
+    for (double const a : kAlphas) head.push_back(fmt::format("alpha {}", a));
     std::vector<std::vector<std::string>> rows;
     for (std::string const d : kDistributions)
         for (bool const compensated : {false, true}) {

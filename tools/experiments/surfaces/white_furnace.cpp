@@ -101,13 +101,13 @@ class Summary {
         if (std::abs(value) > std::abs(most_)) most_ = value;
         if (std::abs(value) <= std::abs(worst_)) return;
         worst_ = value;
-        where_ = fmt::format("alpha {}, {}°", number(alpha, 2), number(angle, 2));
+        where_ = fmt::format("alpha {}, {}°", alpha, angle);
     }
     void end_alpha() { row_.push_back(fixed(most_, 4)), most_ = 0; }
     void end() { row_.push_back(where_), rows_.push_back(row_); }
     void write(Page& page) const {
         std::vector<std::string> head{""};
-        for (double const a : kAlphas) head.push_back("alpha " + number(a, 2));
+        for (double const a : kAlphas) head.push_back(fmt::format("alpha {}", a));
         head.emplace_back("largest at");
         page.table(head, rows_);
     }
@@ -128,7 +128,7 @@ std::string with_alpha(std::string material, double alpha) {
 void white_furnace(Lab const& lab) {
     Page& page = lab.page;
     page.section("White furnace");
-    std::uint64_t const samples = lab.quick ? 256 : 1 << 16;
+    std::uint64_t const samples = lab.quick ? 256 : 1 << 18;
     page.text(fmt::format(
         "The directional albedo: what is scattered at all of light from one direction, the mean of f·|cos|/p "
         "over {} samples of the scattering function. Nothing here absorbs, so that 1 is right. (A coat is a "
@@ -144,7 +144,7 @@ void white_furnace(Lab const& lab) {
         for (double const alpha : kAlphas) {
             Setup const setup = holder(with_alpha(f.material, alpha));
             Bsdf const bsdf = bsdf_of(setup.world);
-            Line line{"alpha " + number(alpha, 2), {}, {}, {}};
+            Line line{fmt::format("alpha {}", alpha), {}, {}, {}};
             for (double const angle : kAngles) {
                 Estimate const e = albedo_by_samples(bsdf, angle, samples);
                 line.x.push_back(angle), line.y.push_back(e.mean);
@@ -169,7 +169,7 @@ void white_furnace(Lab const& lab) {
         "and "
         "light below a coat meets it again and again: what is lost is many times what a single boundary "
         "loses. "
-        "Random walks and closed forms agree on it, as far as the closed forms go:");
+        "Closed forms against random walks:");
     Summary difference;
     for (std::size_t const walks : {4u, 6u}) {
         difference.begin(walks == 4 ? "coateddiffuse, closed form less walks"
