@@ -167,7 +167,11 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
         d.passes = std::holds_alternative<InterfaceMaterial>(material.kind);
         d.perturbed = material.displacement.valid() || material.normal_map.image.valid();
         d.oriented = match(material.kind, [](auto const& m) { return is_oriented(m); });
-        d.textured = d.perturbed || d.oriented;
+        // The random walks of coats are keyed by the place.
+        bool const keyed = match(material.kind, [](auto const& m) {
+            return requires { m.coat; };
+        });
+        d.textured = d.perturbed || d.oriented || keyed;
         for_each_leaf(material.kind, [&](auto const& leaf) {
             if constexpr (std::same_as<std::remove_cvref_t<decltype(leaf)>, TextureId>)
                 d.textured = d.textured || needs_point(leaf);

@@ -1,8 +1,7 @@
 // Real scenes, held against pictures that pbrt-v4 made of them with thousands of samples (CPU, path integrator).
 //
-// The pictures are no part of the project: NEPHROID_SHARED, or ../shared beside the sources, says where they are. A scene
-// is asserted as soon as all that it shows is rendered here; the others are rendered with few samples and their distance
-// is printed, with what is still missing. NEPHROID_FULL takes eight times the samples and halves the tolerances.
+// The pictures are no part of the project: NEPHROID_SHARED, or ../shared beside the sources, says where they are.
+// NEPHROID_FULL takes eight times the samples and halves the tolerances.
 #include "film/develop.h"
 #include "image/compare.h"
 #include "image/read.h"
@@ -22,23 +21,28 @@ using namespace nephroid;
 namespace {
 
 struct Reference {
-    char const* name;     // of the picture
-    char const* scene;    // below the data folder
-    int passes;           // enough that noise stays well below the tolerance
-    char const* missing;  // why it is not asserted yet; null when it is
+    char const* name;   // of the picture
+    char const* scene;  // below the data folder
+    int passes;         // enough that noise stays well below the tolerance
+    double tolerance;   // of the means
 };
+/// Of what has no coats; with NEPHROID_FULL half of that.
+constexpr double kPlain = 0.005;
+/// Coats: pbrt-v4 weighs one of the two ways out of its layers by another density than it draws from (see
+/// docs/decisions/0007-coats-in-closed-form.md), which shows in its pictures.
+constexpr double kCoated = 0.02;
 
 constexpr Reference kReferences[] = {
-    {"cornell-box", "pbrt4-minus/cornell-box/cornell-box.pbrt", 64, nullptr},
-    {"smallpt", "pbrt4-minus/cornell-box/smallpt.pbrt", 128, nullptr},
-    {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 128, nullptr},
-    {"lights-shapes", "references/pbrt-v4/lights-shapes.pbrt", 96, nullptr},
-    {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 256, nullptr},
-    {"lights-env", "references/pbrt-v4/lights-env.pbrt", 128, nullptr},
-    {"materials", "references/pbrt-v4/materials.pbrt", 128, nullptr},
-    {"textures", "references/pbrt-v4/textures.pbrt", 128, nullptr},
-    {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 64, nullptr},
-    {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 64, nullptr},
+    {"cornell-box", "pbrt4-minus/cornell-box/cornell-box.pbrt", 64, kPlain},
+    {"smallpt", "pbrt4-minus/cornell-box/smallpt.pbrt", 128, kPlain},
+    {"cornell-box-specular", "pbrt4-minus/cornell-box/cornell-box-specular.pbrt", 128, kPlain},
+    {"lights-shapes", "references/pbrt-v4/lights-shapes.pbrt", 96, kPlain},
+    {"lights-delta", "references/pbrt-v4/lights-delta.pbrt", 256, kPlain},
+    {"lights-env", "references/pbrt-v4/lights-env.pbrt", 128, kPlain},
+    {"materials", "references/pbrt-v4/materials.pbrt", 128, kPlain},
+    {"textures", "references/pbrt-v4/textures.pbrt", 128, kPlain},
+    {"veach-mis", "pbrt4-minus/veach-mis/veach-mis.pbrt", 64, kCoated},
+    {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 64, kCoated},
 };
 
 std::filesystem::path data_folder() {
@@ -98,7 +102,7 @@ TEST_CASE("pictures agree with pbrt-v4's") {
     for (Reference const& r : kReferences) {
         CAPTURE(std::string(r.name));
         Image const theirs = rgb_of(read_image(pictures / (std::string(r.name) + ".exr")));
-        int const passes = r.missing || !is_full() ? r.passes : 8 * r.passes;
+        int const passes = is_full() ? 8 * r.passes : r.passes;
         auto const [ours, dropped] = rendered(data / r.scene, {theirs.width(), theirs.height()}, passes);
 
         auto const a = channel_means(ours);
@@ -106,15 +110,14 @@ TEST_CASE("pictures agree with pbrt-v4's") {
         double const binned_error = rel_mse(binned(ours, 16), binned(theirs, 16));
         char line[256];
         std::snprintf(line, sizeof line,
-                      "%-20s %5d passes   means %+.2f%% %+.2f%% %+.2f%%   binned relMSE %.2e   %s%s", r.name,
-                      passes, 100 * (a[0] / b[0] - 1), 100 * (a[1] / b[1] - 1), 100 * (a[2] / b[2] - 1),
-                      binned_error, r.missing ? "not yet: " : "", r.missing ? r.missing : "asserted");
+                      "%-20s %5d passes   means %+.2f%% %+.2f%% %+.2f%%   binned relMSE %.2e", r.name, passes,
+                      100 * (a[0] / b[0] - 1), 100 * (a[1] / b[1] - 1), 100 * (a[2] / b[2] - 1),
+                      binned_error);
         MESSAGE(std::string(line));
 
         CHECK(dropped == 0);
         CHECK(is_finite(ours));  // negative numbers are colours outside sRGB, which theirs holds as well
-        if (r.missing) continue;
-        double const tolerance = is_full() ? 0.0025 : 0.005;
+        double const tolerance = is_full() ? r.tolerance / 2 : r.tolerance;
         for (std::size_t c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]).epsilon(tolerance).scale(0));
         CHECK(binned_error < (is_full() ? 5e-4 : 1e-3));
     }
