@@ -123,8 +123,9 @@ void curves(Lab const& lab) {
         rows.push_back({p.measured.name, at(0), at(p.measured.y.size() / 2), at(p.measured.y.size() - 1),
                         number(p.off, 2)});
     }
-    page.save("fresnel.svg", line_plot("Fresnel's reflectance", {"angle, degrees", false, {0, 30, 60, 90}},
-                                       {"reflectance", false}, lines));
+    page.save("fresnel.svg",
+              line_plot("Fresnel's reflectance", {"angle, degrees", false, {0, 20, 40, 60, 80}},
+                        {"reflectance", false}, lines));
     page.image("fresnel.svg", "Reflectance over the angle, as rendered");
     auto const angle = [&](std::size_t i) { return "at " + number(profiles[0].measured.x[i]) + "°"; };
     std::size_t const n = profiles[0].measured.x.size();

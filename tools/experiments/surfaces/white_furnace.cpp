@@ -155,7 +155,7 @@ void white_furnace(Lab const& lab) {
             lines.push_back(std::move(line));
         }
         deviation.end();
-        page.save(f.file, line_plot(f.title, {"angle of incidence, degrees", false, {0, 30, 60, 90}},
+        page.save(f.file, line_plot(f.title, {"angle of incidence, degrees", false, {0, 20, 40, 60, 80}},
                                     {"directional albedo", false}, lines));
         page.image(f.file, "Directional albedo over the angle: " + f.title);
         all.push_back(std::move(lines));
