@@ -48,6 +48,7 @@ void isotropic(Lab const& lab) {
     for (std::string const d : kDistributions) kinds.push_back({"plastic " + d, kPlastic, d, false});
     std::vector<SheetRow> rows;
     std::vector<std::string> columns;
+    columns.reserve(kAlphas.size());
     for (double const a : kAlphas) columns.push_back(fmt::format("{}", a));
     double exposure = 0;
     for (Kind const& k : kinds) {
@@ -66,10 +67,11 @@ void isotropic(Lab const& lab) {
 void anisotropic(Lab const& lab) {
     std::vector<SheetRow> rows;
     std::vector<std::string> columns;
-    for (double const x : kSides) columns.push_back("ax " + fmt::format("{}", x));
+    columns.reserve(kSides.size());
+    for (double const x : kSides) columns.push_back(fmt::format("ax {}", x));
     double exposure = 0;
     for (double const y : kSides) {
-        SheetRow row{"ay " + fmt::format("{}", y), {}, 1};
+        SheetRow row{fmt::format("ay {}", y), {}, 1};
         for (double const x : kSides)
             row.pictures.push_back(picture_of(lab, lab.pixels(60), rough(kMetal, x, y, "ggx", false)));
         if (exposure == 0) exposure = exposure_for(row.pictures.back(), 0.97);
