@@ -117,7 +117,7 @@ std::vector<Group> groups() {
            "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 16 \"float vscale\" 8\n",
            "\"texture alpha\" \"holes\"", true},
           {"marble", "Material \"plastic\" \"texture reflectance\" \"stone\"",
-           "Texture \"stone\" \"spectrum\" \"marble\" \"float scale\" 2\n"},
+           "Texture \"stone\" \"spectrum\" \"marble\" \"float scale\" 5 \"float variation\" 0.6\n"},
           {"rough, checks", "Material \"conductor\" " + gold + " \"texture roughness\" \"checks\"" + raw,
            "Texture \"checks\" \"float\" \"checkerboard\" \"float tex1\" 0.01 \"float tex2\" 0.4 \"float "
            "uscale\" 10 \"float vscale\" 6\n"}}},

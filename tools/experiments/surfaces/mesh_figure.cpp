@@ -20,7 +20,7 @@ void mesh_figure(Lab const& lab) {
         "`scenes/meshes`, in the Cornell box.");
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
     page.code(directives);
-    int const pixels = lab.pixels(112);
+    int const pixels = lab.pixels(100);
     std::uint64_t const many = lab.passes(320);
     std::vector<SheetRow> sheet;
     std::vector<std::vector<std::string>> rows;

@@ -55,7 +55,7 @@ void isotropic(Lab const& lab) {
         SheetRow row{k.label, {}, 1};
         for (double const a : kAlphas)
             row.pictures.push_back(
-                picture_of(lab, lab.pixels(48), rough(k.material, a, a, k.distribution, k.compensated)));
+                picture_of(lab, lab.pixels(40), rough(k.material, a, a, k.distribution, k.compensated)));
         if (exposure == 0) exposure = 0.75 * exposure_for(row.pictures.back(), 0.97);
         row.exposure = exposure;
         rows.push_back(std::move(row));
@@ -73,7 +73,7 @@ void anisotropic(Lab const& lab) {
     for (double const y : kSides) {
         SheetRow row{fmt::format("ay {}", y), {}, 1};
         for (double const x : kSides)
-            row.pictures.push_back(picture_of(lab, lab.pixels(60), rough(kMetal, x, y, "ggx", false)));
+            row.pictures.push_back(picture_of(lab, lab.pixels(48), rough(kMetal, x, y, "ggx", false)));
         if (exposure == 0) exposure = exposure_for(row.pictures.back(), 0.97);
         row.exposure = exposure;
         rows.push_back(std::move(row));

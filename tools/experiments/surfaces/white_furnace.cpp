@@ -128,7 +128,7 @@ std::string with_alpha(std::string material, double alpha) {
 void white_furnace(Lab const& lab) {
     Page& page = lab.page;
     page.section("White furnace");
-    std::uint64_t const samples = lab.quick ? 256 : 1 << 18;
+    std::uint64_t const samples = lab.quick ? 256 : 1 << 17;
     page.text(fmt::format(
         "The directional albedo: what is scattered at all of light from one direction, the mean of f·|cos|/p "
         "over {} samples of the scattering function. Nothing here absorbs, so that 1 is right. (A coat is a "
