@@ -20,7 +20,7 @@ Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, Aov
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
-        if (!is_delta(v.bsdf)) {
+        if (!v.is.delta) {
             if (sample_lights) radiance += walk.beta * sample_direct(c, walk, v, mis);
             scattered = true;  // one more segment, to meet emission by scattering
         }

@@ -18,7 +18,7 @@ Spectrum radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSa
         // A path of max_depth bounces has max_depth + 1 segments; emission at its end is in already.
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
         // Next-event estimation: one more segment, aimed at a light.
-        if (p.sample_lights && !is_delta(v.bsdf))
+        if (p.sample_lights && !v.is.delta)
             radiance += walk.beta * sample_direct(c, walk, v, p.sample_bsdf_mis);
         // The path goes on by scattering, and ends by chance.
         if (!scatter(c, walk, v) || !survives(c, walk, p.roulette)) break;

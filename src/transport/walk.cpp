@@ -148,15 +148,18 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     if (!v.material.valid()) return false;
     Assets const& assets = c.world.assets();
     MaterialData const& data = assets.data(v.material);
-    TexturePoint at;
-    if (data.textured) at = texture_point(c, walk, v.hit);
+    static constexpr TexturePoint kAnywhere;
+    std::optional<TexturePoint> here;
+    if (data.textured) here = texture_point(c, walk, v.hit);
+    TexturePoint const& at = here ? *here : kAnywhere;
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     if (data.encloses)
         walk.interiors.immerse(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f, c.lambda, v.bsdf);
     if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
     v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);
-    if (traits(v.bsdf).hero_only) keep_hero(walk);
+    v.is = traits(v.bsdf);
+    if (v.is.hero_only) keep_hero(walk);
     return true;
 }
 
@@ -204,14 +207,13 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
 
 bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     // Draws have names, so those that nothing asks for are left out.
-    BsdfTraits const is = traits(v.bsdf);
     float lobe = 0.0f;
-    if (is.chooses) {
+    if (v.is.chooses) {
         c.sampler.at(dimension::of(walk.vertex, dimension::kLobe));
         lobe = c.sampler.next_1d();
     }
     Vec2 u{0, 0};
-    if (!is.delta) {
+    if (!v.is.delta) {
         c.sampler.at(dimension::of(walk.vertex, dimension::kDirection));
         u = c.sampler.next_2d();
     }

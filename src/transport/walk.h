@@ -72,11 +72,12 @@ struct Vertex {
     Frame frame;             // shading
     Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
     Bsdf bsdf;
+    BsdfTraits is;  // of bsdf
 };
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
 inline Receiver receiver_of(Vertex const& v) {
-    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, traits(v.bsdf).spreads_through};
+    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, v.is.spreads_through};
 }
 
 /// How emission that a ray runs into is weighed against light sampling at the ray's origin.

@@ -16,7 +16,7 @@ Spectrum trace(WhittedIntegrator const& p, PathContext& c, Walk walk, int depth,
     bool const scatters = prepare(c, walk, v);
     if (aov) record_first_hit(c, walk, scatters, v, aov);
     if (!scatters || depth >= p.max_depth) return radiance;
-    if (!is_delta(v.bsdf)) radiance += walk.beta * sample_direct(c, walk, v, false);
+    if (!v.is.delta) radiance += walk.beta * sample_direct(c, walk, v, false);
 
     DeltaBranches const branches = delta_branches(v.bsdf, v.wo_local, Mode::Radiance);
     std::uint32_t child = 2 * node;
