@@ -26,7 +26,8 @@ void introduction(Page& page) {
         "**Error** of a picture is its relative RMSE, as a share of its mean, from two renders that do not "
         "know of each other.",
         "**alpha** is the roughness of the microfacet distributions; `roughness` in a scene file is "
-        "alpha² unless `remaproughness` is false, as it is in all scenes here.",
+        "alpha² unless `remaproughness` is false, as it is in all scenes here; "
+        "glTF's is the root of alpha.",
         "**Compensation** is the option `multiscatter`: what microfacets reflect among themselves comes "
         "back (Kulla & Conty 2017). pbrt-v4's materials have none, so that it is off by default.",
         "All renders are functions of scene, settings and seed. Times alone are the machine's: it had two "
