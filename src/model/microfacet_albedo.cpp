@@ -29,6 +29,7 @@ float between(float const* at, int step, float share) { return lerp(share, at[0]
 struct Place {
     int row;
     float alpha, index;
+    float square;  // the next index's share by (eta - 1)^2 / (eta + 1)^2
 };
 /// Beyond the table's indices the outermost, which no one has seen.
 float inside_table(float eta) {
@@ -40,8 +41,11 @@ Place place(Distribution d, float alpha, float eta) {
     bool const inside = eta < 1.0f;
     auto const a = between(alpha_to_node(alpha, kGlassAlphas), kGlassAlphas);
     auto const n = between(index_to_node(inside_table(eta)), kIndices / 2);
-    return {(static_cast<int>(d) * kGlassAlphas + a.low) * kIndices + n.low + (inside ? 0 : kIndices / 2),
-            a.share, n.share};
+    int const node = n.low + (inside ? 0 : kIndices / 2);
+    auto const s2 = [](float index) { return sqr((index - 1.0f) / (index + 1.0f)); };
+    float const low = s2(node_to_index(node)), high = s2(node_to_index(node + 1));
+    return {(static_cast<int>(d) * kGlassAlphas + a.low) * kIndices + node, a.share, n.share,
+            clamp((s2(inside_table(eta)) - low) / (high - low), 0.0f, 1.0f)};
 }
 
 /// `part`: 0 reflected, 1 transmitted.
@@ -49,11 +53,14 @@ float glass(Distribution d, float mu, float alpha, float eta, int part) {
     using namespace table;
     Place const at = place(d, alpha, eta);
     int const row = at.row;
-    float const a = at.alpha, n = at.index;
+    float const a = at.alpha;
     float const* t =
         nephroid_microfacet_table + kSingle + static_cast<std::size_t>(part) * kGlass + row * kGlassMus;
     // mu by the nodes of this index, which lie alike about the critical angle in both neighbours.
     auto const m = between(mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta)), kGlassMus);
+    // Between two indices what is reflected straight on grows as s^2, s = (eta - 1) / (eta + 1), where even shares of the nodes
+    // would give a twelfth too much; towards grazing light the nodes' own shares are nearer.
+    float const n = lerp(sqr(sqr(clamp(mu, 0.0f, 1.0f))), at.index, at.square);
     auto const of_alpha = [&](float const* p) {
         return lerp(n, between(p + m.low, 1, m.share), between(p + kGlassMus + m.low, 1, m.share));
     };
@@ -84,9 +91,9 @@ float dielectric_transmission_albedo(Distribution d, float mu, float alpha, floa
     return glass(d, mu, alpha, eta, 1);
 }
 float dielectric_albedo_average(Distribution d, float alpha, float eta) {
-    auto const [row, a, n] = place(d, alpha, eta);
-    float const* t = nephroid_microfacet_table + table::kFirstAverage + table::kSingleAverages + row;
-    return lerp(a, between(t, 1, n), between(t + table::kIndices, 1, n));
+    Place const at = place(d, alpha, eta);
+    float const* t = nephroid_microfacet_table + table::kFirstAverage + table::kSingleAverages + at.row;
+    return lerp(at.alpha, between(t, 1, at.index), between(t + table::kIndices, 1, at.index));
 }
 
 }  // namespace nephroid

@@ -81,6 +81,8 @@ float World::transmittance(SurfaceHit const& from, LightSample const& to, RaySta
         // which grows with the distance and would else reach below a surface seen at grazing. The last 2^-20 of the way
         // is left out: where the far end is a corner, other surfaces begin there.
         ray.o = offset_ray_origin(from.s.p, from.s.p_error, from.s.ng, to.p - from.s.p);
+        // What rounding alone lifted out of a lamp's plane sees nothing of the lamp, not even where it is the lamp's own back.
+        if (dot(to.n, from.s.p - to.p) * dot(to.n, ray.o - to.p) < 0.0f) return 0.0f;
         Vec3 const rounding = gamma_bound(3) * abs(to.p - ray.o);
         Vec3 const target = offset_ray_origin(to.p, to.p_error + rounding, to.n, ray.o - to.p);
         ray.d = target - ray.o;

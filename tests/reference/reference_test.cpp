@@ -1,11 +1,11 @@
 // Real scenes, held against pictures that pbrt-v4 made of them with thousands of samples (CPU, path integrator).
 //
-// The pictures are no part of the project: NEPHROID_SHARED, or ../shared beside the sources, says where they are.
 // NEPHROID_FULL takes eight times the samples and halves the tolerances.
 #include "film/develop.h"
 #include "image/compare.h"
 #include "image/read.h"
 #include "read/read.h"
+#include "reference_pictures.h"
 #include "render/render.h"
 
 #include <doctest/doctest.h>
@@ -17,6 +17,7 @@
 #include <string>
 
 using namespace nephroid;
+using test::data_folder, test::rgb_of;
 
 namespace {
 
@@ -45,13 +46,6 @@ constexpr Reference kReferences[] = {
     {"killeroo-simple", "pbrt4-minus/killeroos/killeroo-simple.pbrt", 64, kCoated},
 };
 
-std::filesystem::path data_folder() {
-    char const* const named = std::getenv("NEPHROID_SHARED");
-    auto const shared = named ? std::filesystem::path(named)
-                              : std::filesystem::path(NEPHROID_SOURCE_DIR).parent_path() / "shared";
-    return shared / "data";
-}
-
 bool is_full() { return std::getenv("NEPHROID_FULL") != nullptr; }
 
 struct Rendered {
@@ -76,18 +70,6 @@ bool is_finite(Image const& image) {
     for (float const x : image.floats())
         if (!std::isfinite(x)) return false;
     return true;
-}
-
-/// R, G and B alone, whatever else a reference holds.
-Image rgb_of(Image const& image) {
-    Image out(PixelFormat::Float, image.width(), image.height(), {"R", "G", "B"});
-    char const* const names[3] = {"R", "G", "B"};
-    for (int c = 0; c < 3; ++c) {
-        int const from = image.channel(names[c]).value();
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) out.set(x, y, c, image.get(x, y, from));
-    }
-    return out;
 }
 
 }  // namespace

@@ -191,3 +191,21 @@ TEST_CASE("form factors of the unit cube") {
         for (World const& w : adjacent) check_mean(w, settings(i, 4, 4), 16, .200044);
     }
 }
+
+TEST_CASE("a lamp does not light its own back") {
+    // A tilted triangle, which rounding lifts hits out of: half of them would see all of it, from next to nothing away.
+    Scene scene;
+    TriangleMesh mesh;
+    mesh.p = {{-3.1f, -2.7f, 0}, {3.3f, -2.9f, 0}, {0.1f, 4.3f, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    for (bool const two_sided : {false, true}) {
+        Scene s = scene;
+        Object& o = add(s, mesh, diffuse(s, 1));
+        o.to_group = translate(-4, 0.3f, 6) * rotation(120, 0, 1, 0);
+        o.light = white(10, two_sided);
+        // From behind: the normal is (sin 120, 0, cos 120).
+        look_at_point(s, {-8, 0.1f, 8.4f}, {-4, 0.3f, 6});
+        World const world = compile(s);
+        for (Integrator const& i : one_bounce()) check_mean(world, settings(i), 64, two_sided ? 10 : 0);
+    }
+}
