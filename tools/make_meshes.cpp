@@ -137,6 +137,58 @@ Mesh cup_handle() {
     return mesh;
 }
 
+// The tumbler's inner radius at height z, above its bottom.
+double tumbler_radius(double z) { return 2.6 + 0.6 * (z - 1) / 9; }
+
+// A tumbler, closed: foot, outer wall that widens upwards, rounded lip, inner wall, and a bottom 1 thick. Its walls are 0.3 thick.
+Mesh tumbler() {
+    constexpr double low = 1, high = 10, lip = 0.3 / 2;
+    Vec2 const slope = glm::normalize(Vec2(0.6, high - low));  // up the wall
+    Vec2 const out{slope.y, -slope.x};
+    Mesh mesh;
+    Vec2 const middle{tumbler_radius(high) + lip, high};  // of the lip
+    constexpr double round = 0.5;  // radius of the foot's edge and of the inner bottom's
+    Vec2 const foot_end = middle + lip * out - slope * ((high - round) / slope.y);
+    Vec2 const foot_centre = foot_end - round * out;
+    Vec2 const inner_end = middle - lip * out - slope * ((high - low - round) / slope.y);
+    Vec2 const inner_centre = inner_end - round * out;
+    double const turn = std::atan2(out.y, out.x);
+    auto const straight = [&](int rows, Vec2 a, Vec2 b, Vec2 n) {
+        add_lathe(mesh, 128, rows, [=](double t) { return ProfilePoint{a + t * (b - a), n}; });
+    };
+    auto const arc = [&](int rows, Vec2 centre, double radius, double from, double to, double side) {
+        add_lathe(mesh, 128, rows, [=](double t) {
+            double const a = from + t * (to - from);
+            Vec2 const n{std::cos(a), std::sin(a)};
+            return ProfilePoint{centre + radius * n, side * n};
+        });
+    };
+    Vec2 const down{0, -1}, up{0, 1};
+    straight(1, {0.01, foot_centre.y - round}, {foot_centre.x, foot_centre.y - round}, down);
+    arc(8, foot_centre, round, -kPi / 2, turn, 1);
+    straight(1, foot_end, middle + lip * out, out);
+    arc(12, middle, lip, turn, turn + kPi, 1);
+    straight(1, middle - lip * out, inner_end, -out);
+    arc(8, inner_centre, round, turn, -kPi / 2, -1);
+    straight(1, {inner_centre.x, inner_centre.y - round}, {0.01, inner_centre.y - round}, up);
+    return mesh;
+}
+
+// What is drunk from the tumbler, up to z = 7.6: it reaches 0.15 into the glass, lest there be a film of air between them.
+Mesh juice() {
+    constexpr double low = 0.9, high = 7.6, into = 0.15;
+    double const bottom = tumbler_radius(low) + into, top = tumbler_radius(high) + into;
+    Mesh mesh;
+    auto const straight = [&](Vec2 a, Vec2 b) {
+        Vec2 const along = glm::normalize(b - a), n{along.y, -along.x};
+        add_lathe(mesh, 128, 1, [=](double t) { return ProfilePoint{a + t * (b - a), n}; });
+    };
+    straight({0.01, low}, {bottom, low});
+    straight({bottom, low}, {top, high});
+    straight({top, high}, {0.01, high});
+    return mesh;
+}
+
 // A fir: three cones, one over the other, 1 high and 0.6 wide; the trunk is the scene's own.
 Mesh fir() {
     Mesh mesh;
@@ -260,6 +312,8 @@ int main(int argc, char** argv) try {
     write(dir / "meshes/cup-lip.ply", ply(cup_lip(), Format::Binary));
     write(dir / "meshes/cup-handle.ply", ply(cup_handle(), Format::Binary));
     write(dir / "meshes/knot.ply", ply(knot(), Format::Binary));
+    write(dir / "meshes/tumbler.ply", ply(tumbler(), Format::Binary));
+    write(dir / "meshes/juice.ply", ply(juice(), Format::Binary));
     write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
     write(dir / "textures/chart.tga", chart());
     return 0;

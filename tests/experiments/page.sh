@@ -11,7 +11,7 @@ fail() {
     bad=1
 }
 headings() { grep -E '^#+ ' "$1"; }
-pictures() { grep -oE '\]\([^)#]*\)' "$1" | tr -d '()]' | LC_ALL=C sort; }
+pictures() { grep -oE '!\[[^]]*\]\([^)]*\)' "$1" | sed 's/.*](//; s/)$//' | LC_ALL=C sort; } # not links, which go elsewhere
 
 whole() { # whole FOLDER: every picture that the page shows is there, and no other
     local page=$1/$name.md

@@ -11,3 +11,7 @@ function(experiment name)
   target_link_libraries(experiment_${name} PRIVATE experiments)
 endfunction()
 experiment(direct_lighting)
+experiment(surfaces)
+# Measured materials are made by the recipe of the tests of that model.
+target_include_directories(experiment_surfaces PRIVATE ${PROJECT_SOURCE_DIR}/tests/model ${PROJECT_SOURCE_DIR}/tests/include)
+target_compile_definitions(experiment_surfaces PRIVATE NEPHROID_SCENES="${PROJECT_SOURCE_DIR}/scenes")

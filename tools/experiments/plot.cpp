@@ -136,7 +136,9 @@ std::vector<Tick> ticks_of(Scale const& s) {
     if (s.axis->ticks.empty())
         return s.axis->logarithmic ? logarithmic_ticks(s.range) : linear_ticks(s.range);
     std::vector<Tick> ticks;
-    for (double const v : s.axis->ticks) ticks.push_back({v, v == std::round(v) ? fixed(v, 0) : number(v)});
+    for (double const v : s.axis->ticks)
+        if (v >= s.range.lo && v <= s.range.hi)
+            ticks.push_back({v, v == std::round(v) ? fixed(v, 0) : number(v)});
     return ticks;
 }
 

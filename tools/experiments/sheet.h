@@ -14,7 +14,7 @@ struct SheetRow {
     std::vector<Picture> pictures;  // one a column, all of one size
     double exposure = 1;
 };
-/// sRGB, 8 bits; one channel when there are no colours. Labels: small letters, digits and . - / , + % ( ).
+/// sRGB, 8 bits; one channel when there are no colours. Labels: small letters, digits and . - / , + % ( ) =.
 void write_sheet(std::filesystem::path const& path, std::vector<std::string> const& columns,
                  std::vector<SheetRow> const& rows);
 

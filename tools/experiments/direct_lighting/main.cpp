@@ -2,29 +2,19 @@
 // and picture of it from renders that it makes itself. Run by ./dev experiment direct-lighting.
 #include "sections.h"
 
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdio>
-#include <cstring>
-#include <exception>
+#include "experiment.h"
 
 namespace {
 
 using namespace nephroid::experiment;
 
-struct Section {
-    char const* name;
-    void (*run)(Lab const&);
-};
 constexpr Section kSections[] = {{"soft shadows", soft_shadows}, {"naive or direct", naive_or_direct},
                                  {"box light", box_light},       {"strategies", strategies},
                                  {"samplers", samplers},         {"light shapes", light_shapes},
                                  {"many lights", many_lights},   {"picture light", picture_light},
                                  {"hemispheres", hemispheres}};
 
-void introduction(Page& page, bool quick) {
-    if (quick) page.text("**A quick run: the numbers show that the program works, and nothing else.**");
+void introduction(Page& page) {
     page.text(
         "How direct light is found, and what it costs in noise: the trials of Shirley, Wang and Zimmerman "
         "(*Monte "
@@ -57,39 +47,8 @@ void introduction(Page& page, bool quick) {
     });
 }
 
-int run(std::filesystem::path const& folder, bool quick) {
-    auto const start = std::chrono::steady_clock::now();
-    Page page(folder, "direct-lighting", "Direct lighting");
-    Lab const lab{
-        page, quick,
-        std::filesystem::temp_directory_path() / ("nephroid-experiment-" + std::to_string(getpid()))};
-    std::filesystem::create_directories(lab.scratch);
-    introduction(page, quick);
-    for (Section const& s : kSections) {
-        std::fprintf(stderr, "%5.1f s  %s\n",
-                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), s.name);
-        s.run(lab);
-    }
-    page.write();
-    std::filesystem::remove_all(lab.scratch);
-    std::fprintf(stderr, "%5.1f s  done: %s\n",
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                 (folder / "direct-lighting.md").c_str());
-    return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    bool const quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-    if (argc != (quick ? 3 : 2)) {
-        std::fputs("experiment_direct_lighting [--quick] FOLDER\n", stderr);
-        return 2;
-    }
-    try {
-        return run(argv[argc - 1], quick);
-    } catch (std::exception const& e) {
-        std::fprintf(stderr, "experiment: %s\n", e.what());
-        return 1;
-    }
+    return run_experiment({"direct-lighting", "Direct lighting", introduction, kSections}, argc, argv);
 }

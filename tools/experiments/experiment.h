@@ -1,0 +1,26 @@
+// A program that writes one page: PROGRAM [--quick] FOLDER writes FOLDER/name.md and FOLDER/name/*.
+#pragma once
+
+#include "lab.h"
+
+#include <span>
+
+namespace nephroid::experiment {
+
+struct Section {
+    char const* name;
+    void (*run)(Lab const&);
+};
+
+struct Experiment {
+    char const* name;
+    char const* title;
+    void (*introduction)(Page&);
+    std::span<Section const> sections;
+};
+
+/// Exit code: 2 for wrong arguments, 1 for what failed, which stderr then says, as it says what is being done. A run with
+/// --quick says on the page that it was one.
+int run_experiment(Experiment const& experiment, int argc, char** argv);
+
+}  // namespace nephroid::experiment

@@ -1,0 +1,144 @@
+// Delta reflection and refraction (Figures 9 and 10 of the report), with Fresnel's equations and without; and the equations
+// themselves, read off a sphere under a white sky.
+#include "sections.h"
+
+#include "measure.h"
+#include "model/fresnel.h"
+#include "plot.h"
+#include "sheet.h"
+#include "stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::experiment {
+
+namespace {
+
+struct Way {
+    std::string label, material;
+};
+std::vector<Way> const& ways() {
+    static std::vector<Way> const all{
+        {"mirror, f=1", R"(Material "conductor" "float roughness" 0 "rgb eta" [ 0 0 0 ] "rgb k" [ 0 0 0 ])"},
+        {"silver", R"(Material "conductor" "spectrum eta" "metal-Ag-eta" "spectrum k" "metal-Ag-k")"},
+        {"copper", R"(Material "conductor")"},
+        {"glass, f=0",
+         R"(Material "metallicroughness" "float metallic" 0 "float roughness" 0 "float transmission" 1 "bool thinwalled" false "float specular" 0)"},
+        {"glass 1.5", R"(Material "dielectric")"},
+        {"diamond 2.42", R"(Material "dielectric" "float eta" 2.42)"}};
+    return all;
+}
+
+void pictures(Lab const& lab) {
+    std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
+    std::uint64_t const passes = lab.passes(400);
+    SheetRow row{"", {}, 1};
+    std::vector<std::string> labels;
+    std::vector<std::vector<std::string>> rows;
+    for (Way const& w : ways()) {
+        Setup const setup =
+            stage::faithful(stage::cornell(lab.pixels(100)) + "AttributeBegin\nTranslate 278 170 300\n" +
+                                w.material + "\nShape \"sphere\" \"float radius\" 150\nAttributeEnd\n",
+                            stage::scenes());
+        row.pictures.push_back(render_picture(setup, directives, passes, 1));
+        labels.push_back(w.label);
+        rows.push_back({w.label + ": `" + w.material + "`", number(mean(row.pictures.back()))});
+    }
+    row.exposure = exposure_for(row.pictures.front(), 0.9);
+    write_sheet(lab.page.file("delta.png"), labels, {row});
+    lab.page.image("delta.png",
+                   "A sphere in the Cornell box: mirrors and glasses, with Fresnel's equations "
+                   "and without");
+    lab.page.table({"", "mean radiance"}, rows);
+    lab.page.text(
+        fmt::format("{} samples a pixel. Without Fresnel's equations a mirror throws back all light, and a "
+                    "glass lets all "
+                    "of it pass (but for total reflection): it has no lamp in its front and no rim.",
+                    passes));
+}
+
+/// Reflectance over the angle, from the pixels of a sphere on the row through its middle.
+struct Profile {
+    Line measured;
+    double off = 0;  // the largest difference
+};
+Profile profile(Lab const& lab, std::string const& name, std::string const& material,
+                double (*reflectance)(double cosine)) {
+    // One row of pixels, each but its centre: then a pixel is one angle.
+    int const n = lab.pixels(60);
+    Setup const setup = stage::faithful(
+        fmt::format("Option \"string color\" \"rgb\"\nFilm \"rgb\" \"integer xresolution\" {} \"integer "
+                    "yresolution\" 1\nPixelFilter \"box\" \"float xradius\" 0.001 \"float yradius\" 0.001\n"
+                    "LookAt 0 -4 0  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" [ 0 1 "
+                    "-0.001 0.001 ]\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n",
+                    n) +
+            material + "\n" + stage::unit_sphere(),
+        ".");
+    std::uint64_t const passes = lab.passes(4096);
+    Picture const p = render_picture(setup, "Integrator \"path\"\nSampler \"zsobol\"", passes, 1);
+    Profile r{{name, {}, {}, {}}, 0};
+    for (int i = 0; i < n; ++i) {
+        double const x = (i + 0.5) / n;
+        double const angle = std::asin(x) * 180 / 3.14159265358979323846;
+        double const truth = reflectance(std::sqrt(1 - x * x));
+        double const value = p.rgb[static_cast<std::size_t>(i)][1];
+        r.off = std::max(r.off, std::abs(value - truth));
+        if (i % 3 == 1) r.measured.x.push_back(angle), r.measured.y.push_back(value);
+    }
+    return r;
+}
+
+void curves(Lab const& lab) {
+    Page& page = lab.page;
+    page.text(
+        "Fresnel's reflectance can be read off a picture: a sphere under a white sky shows at the distance "
+        "sin θ from its middle what comes back at the angle θ. (So that nothing but the first reflection "
+        "comes back from glass, the light inside is absorbed.)");
+    std::string const black = " \"float absorption\" 1e6";
+    std::array const profiles{
+        profile(lab, "copper-like, 0.2 + 2.6i",
+                R"(Material "conductor" "rgb eta" [ 0.2 0.2 0.2 ] "rgb k" [ 2.6 2.6 2.6 ])",
+                [](double c) {
+                    return static_cast<double>(fresnel_conductor(static_cast<float>(c), 0.2f, 2.6f));
+                }),
+        profile(lab, "iron-like, 2.9 + 3.1i",
+                R"(Material "conductor" "rgb eta" [ 2.9 2.9 2.9 ] "rgb k" [ 3.1 3.1 3.1 ])",
+                [](double c) {
+                    return static_cast<double>(fresnel_conductor(static_cast<float>(c), 2.9f, 3.1f));
+                }),
+        profile(
+            lab, "diamond, 2.42", R"(Material "dielectric" "float eta" 2.42)" + black,
+            [](double c) { return static_cast<double>(fresnel_dielectric(static_cast<float>(c), 2.42f)); }),
+        profile(lab, "glass, 1.5", R"(Material "dielectric" "float eta" 1.5)" + black, [](double c) {
+            return static_cast<double>(fresnel_dielectric(static_cast<float>(c), 1.5f));
+        })};
+    std::vector<Line> lines;
+    std::vector<std::vector<std::string>> rows;
+    for (Profile const& p : profiles) {
+        lines.push_back(p.measured);
+        auto const at = [&](std::size_t i) { return number(p.measured.y[i]); };
+        rows.push_back({p.measured.name, at(0), at(p.measured.y.size() / 2), at(p.measured.y.size() - 1),
+                        number(p.off, 2)});
+    }
+    page.save("fresnel.svg",
+              line_plot("Fresnel's reflectance", {"angle, degrees", false, {0, 20, 40, 60, 80}},
+                        {"reflectance", false}, lines));
+    page.image("fresnel.svg", "Reflectance over the angle, as rendered");
+    auto const angle = [&](std::size_t i) { return "at " + number(profiles[0].measured.x[i]) + "°"; };
+    std::size_t const n = profiles[0].measured.x.size();
+    page.table({"eta + ik", angle(0), angle(n / 2), angle(n - 1), "largest difference to the formula"}, rows);
+}
+
+}  // namespace
+
+void mirrors_and_glass(Lab const& lab) {
+    lab.page.section("Mirrors and glass");
+    lab.page.text("The report's Figures 9 and 10: delta reflection and delta refraction.");
+    pictures(lab);
+    curves(lab);
+}
+
+}  // namespace nephroid::experiment
