@@ -389,6 +389,12 @@ TEST_CASE("which form a coat takes") {
     CHECK(metal.eta[0] == doctest::Approx(1 / 1.5));
     CHECK(metal.k[0] == doctest::Approx(2 / 1.5).epsilon(1e-3));
     CHECK(metal.bounces == 5);
+    // Rough: closed as far as copper was measured, walks over what is whiter.
+    m.conductor.roughness.u = add_number(s, 0.2f);
+    CHECK(std::holds_alternative<ClosedCoatedConductorBsdf>(made(m)));
+    m.conductor.reflectance = add_color(s, {0.5f, 0.99f, 0.5f});
+    CHECK(std::holds_alternative<CoatedConductorBsdf>(made(m)));
+    m.conductor.reflectance = grey;
     m.coat.roughness.u = add_number(s, 0.5f);
     CHECK(std::holds_alternative<CoatedConductorBsdf>(made(m)));
     m.coat.model = CoatModel::ClosedForm;
