@@ -49,7 +49,7 @@ Interior const* interior_of(MaterialKind const& kind) {
         if constexpr (requires { m.interior; })
             return &m.interior;
         else if constexpr (requires { m.transmission.interior; })
-            return &m.transmission.interior;
+            return m.transmission.thin ? nullptr : &m.transmission.interior;  // a thin wall has no inside
         else
             return nullptr;
     });
@@ -135,7 +135,10 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
         if (auto const* const m = std::get_if<MeasuredMaterial>(&material.kind)) {
             auto& tables = measured[m->file.path];
             try {
-                if (!tables) tables = std::make_shared<MeasuredTables const>(m->file.path);
+                if (!tables) {
+                    tables = std::make_shared<MeasuredTables const>(m->file.path);
+                    measured_bytes_ += tables->bytes();
+                }
             } catch (Error const& e) {
                 throw Error(e.kind(), scene.locate(m->file.where) + ": " + e.what());
             }

@@ -6,6 +6,7 @@
 // The numbers of a walk are hashes of what it is for: (seed, wo, wi), and one stream for each of f, the density and the draw.
 // That f and the density do not share numbers is what keeps products of the two, as in multiple importance sampling, unbiased.
 #include "coat_table.h"
+#include "diffuse_boundary.h"
 #include "layer_boundary.h"
 #include "make_bsdf.h"
 #include "model/fresnel.h"
@@ -106,13 +107,22 @@ struct Layers {
         return s->pdf;
     }
     /// Between two mirrors nothing but particles can be joined with a direction: light that goes `up`, once straight (`seen`) and
-    /// once by way of the base, and all turns of it between the two. pbrt-v4's f lacks all but the first, its samples do not.
-    Spectrum between_mirrors(Walker const& at, Vec3 up, Spectrum seen) const {
+    /// once by way of the base, and the turns of it between the two for which `events` are left, that of leaving among them.
+    /// pbrt-v4's f lacks all but the first, its samples do not.
+    Spectrum between_mirrors(Walker const& at, Vec3 up, Spectrum seen, int events) const {
         Spectrum const base_r = albedo(base, up);
         float const phase = henyey_greenstein(coat.g, -at.w, {up.x, up.y, -up.z});
         Spectrum const turn =
             base_r * (fresnel_dielectric(-up.z, coat.eta) * passing(2.0f * coat.thickness, up));
-        return (seen + base_r * (phase * passing(coat.thickness + at.z, up))) / (Spectrum(1.0f) - turn);
+        Spectrum by_base = base_r * (phase * passing(coat.thickness + at.z, up));
+        Spectrum sum;
+        for (; events >= 1; events -= 2) {
+            sum += events >= 2 ? seen + by_base : seen;
+            seen *= turn;
+            by_base *= turn;
+            if (seen.max() + by_base.max() < 1e-9f) break;
+        }
+        return sum;
     }
     /// Russian roulette, as pbrt-v4 has it: from the fifth event on, where little is left.
     static bool survives(Walker& at, int depth, Numbers& r) {
@@ -167,7 +177,7 @@ Spectrum evaluate_layers(Layers<Base> const& l, Vec3 wo, Vec3 wi, std::uint32_t 
                 float const phase = henyey_greenstein(l.coat.g, -at.w, up);
                 float const w = rough ? power_heuristic(out->pdf, phase) : 1.0f;
                 Spectrum seen(phase * w * passing(thickness - at.z, up));
-                if (l.mirror && !rough) seen = l.between_mirrors(at, up, seen);
+                if (l.mirror && !rough) seen = l.between_mirrors(at, up, seen, l.coat.max_depth - depth);
                 walks += at.beta * l.coat.albedo * seen * (leaving / up.z);
                 float const drawn = l.turn(at, r);
                 if (rough && at.w.z > 0.0f) leave(drawn, true);
@@ -297,6 +307,9 @@ Spectrum layers_albedo(Layers<Base> const& l, Vec3 wo, std::uint32_t seed) {
     return sum / static_cast<float>(kWalks);
 }
 
+/// How often light may meet the base among that many events.
+std::uint8_t meetings(CoatLayer const& l) { return static_cast<std::uint8_t>((l.max_depth + 1) / 2); }
+
 template <class F>
 auto with_layers(CoatedDiffuseBsdf const& b, F const& f) {
     DiffuseBsdf const base{b.reflectance};
@@ -329,6 +342,10 @@ std::optional<BsdfSample> sample(CoatedDiffuseBsdf const& b, Vec3 wo, float uc, 
 Spectrum albedo(CoatedDiffuseBsdf const& b, Vec3 wo) {
     return with_layers(b, [&](auto const& l) { return layers_albedo(l, wo, b.seed); });
 }
+DeltaBranches delta_branches(CoatedDiffuseBsdf const& b, Vec3 wo, Mode) {
+    if (!b.coat.facets.smooth()) return {};
+    return mirror_branch(Spectrum(fresnel_dielectric(abs_cos_theta(wo), b.coat.eta)), wo);
+}
 
 // --- over a conductor ---------------------------------------------------------------------------------------------------------
 Spectrum evaluate(CoatedConductorBsdf const& b, Vec3 wo, Vec3 wi, Mode) {
@@ -343,6 +360,12 @@ std::optional<BsdfSample> sample(CoatedConductorBsdf const& b, Vec3 wo, float uc
 }
 Spectrum albedo(CoatedConductorBsdf const& b, Vec3 wo) {
     return with_layers(b, [&](auto const& l) { return layers_albedo(l, wo, b.seed); });
+}
+/// What meets no particle on its way goes as without a medium, whose extinction is the same.
+DeltaBranches delta_branches(CoatedConductorBsdf const& b, Vec3 wo, Mode mode) {
+    return delta_branches(ClosedCoatedConductorBsdf{b.eta, b.k, b.coat.facets, b.facets, b.coat.eta,
+                                                    b.coat.thickness, meetings(b.coat), b.coat.dispersive},
+                          wo, mode);
 }
 
 // --- from materials -----------------------------------------------------------------------------------------------------------
@@ -362,10 +385,15 @@ CoatLayer layer(Coat const& c, MaterialPoint const& p) {
     l.samples = static_cast<std::uint8_t>(std::clamp(c.samples, 1, 255));
     return l;
 }
-/// Walks differ from path to path, even where the same light is looked at from the same place.
+/// Walks differ from path to path, even where the same light is looked at from the same place. Of the place the exponents are
+/// left out: a scene scaled by a power of two has the same walks.
 std::uint32_t seed_of(MaterialPoint const& p) {
-    return static_cast<std::uint32_t>(
-        hash_keys(pack(p.at.p.x, p.at.p.y), pack(p.at.p.z, p.lambda.lambda(0)), pack(p.at.uv.x, p.at.uv.y)));
+    auto const digits = [](float x) {
+        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x807fffffu);
+    };
+    return static_cast<std::uint32_t>(hash_keys(pack(digits(p.at.p.x), digits(p.at.p.y)),
+                                                pack(digits(p.at.p.z), p.lambda.lambda(0)),
+                                                pack(p.at.uv.x, p.at.uv.y)));
 }
 
 // --- closed forms ---------------------------------------------------------------------------------------------------------------
@@ -381,7 +409,7 @@ bool tabulated(Microfacets const& m) {
     return m.smooth() || (m.kind == Distribution::TrowbridgeReitz && min(m.ax, m.ay) * 1.5f >= alpha_of(m));
 }
 bool closed_form_holds(CoatLayer const& l) {
-    if (l.facets.smooth()) return true;
+    if (l.facets.smooth()) return diffuse_boundary_covers(l.eta);
     return tabulated(l.facets) && coat_table_covers(l.eta) && l.thickness <= 0.1f;
 }
 /// `brightest`: of the base within the coat, the brightest lane's reflectance at normal incidence.
@@ -401,8 +429,6 @@ float brightest_lane(Spectrum eta, Spectrum k, Wavelengths const& lambda) {
     for (int i = 0; i < (lambda.is_rgb() ? 3 : 4); ++i) f = max(f, fresnel_conductor(1.0f, eta[i], k[i]));
     return f;
 }
-/// How often light may meet the base among that many events.
-std::uint8_t meetings(CoatLayer const& l) { return static_cast<std::uint8_t>((l.max_depth + 1) / 2); }
 
 }  // namespace
 

@@ -202,6 +202,12 @@ std::optional<BsdfSample> sample(ClosedCoatedConductorBsdf const& b, Vec3 wo, fl
     return result;
 }
 
+DeltaBranches delta_branches(ClosedCoatedConductorBsdf const& b, Vec3 wo, Mode) {
+    if (!b.coat.smooth()) return {};
+    float const mu = abs_cos_theta(wo);
+    return mirror_branch(traits(b).delta ? mirror(b, mu) : Spectrum(fresnel_dielectric(mu, b.coat_eta)), wo);
+}
+
 Spectrum albedo(ClosedCoatedConductorBsdf const& b, Vec3 wo) {
     float const mu = abs_cos_theta(wo);
     if (traits(b).delta) return mirror(b, mu);

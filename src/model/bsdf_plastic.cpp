@@ -104,6 +104,11 @@ std::optional<BsdfSample> sample(PlasticBsdf const& b, Vec3 wo, float uc, Vec2 u
     return result;
 }
 
+DeltaBranches delta_branches(PlasticBsdf const& b, Vec3 wo, Mode) {
+    if (!b.facets.smooth()) return {};
+    return mirror_branch(b.specular * fresnel_dielectric(abs_cos_theta(wo), b.eta), wo);
+}
+
 Spectrum albedo(PlasticBsdf const& b, Vec3 wo) {
     Parts const a = parts(b, abs_cos_theta(wo));
     return a.mirror + a.diffuse;

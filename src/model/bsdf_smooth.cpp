@@ -117,7 +117,10 @@ void make(ThinDielectricMaterial const&, MaterialPoint const& p, Bsdf& bsdf) {
 }
 
 ComplexIndex complex_index(ConductorMaterial const& m, MaterialPoint const& p) {
-    if (!m.reflectance.valid()) return {p.spectrum(m.eta, {}), p.spectrum(m.k, {})};
+    // Beyond, Fresnel's formula leaves the floats; it is a mirror long before.
+    constexpr float kMostIndex = 1e4f;
+    auto const within = [&](TextureId id) { return clamp(p.spectrum(id, {}), 0.0f, kMostIndex); };
+    if (!m.reflectance.valid()) return {within(m.eta), within(m.k)};
     // The k that gives reflectance r at normal incidence with eta = 1: k = 2 sqrt(r / (1 - r)) (pbrt-v4).
     Spectrum const r = clamp(p.spectrum(m.reflectance, {}), 0.0f, 0.9999f);
     return {Spectrum(1.0f), 2.0f * sqrt(r / (Spectrum(1.0f) - r))};

@@ -30,6 +30,8 @@ Place place(float x, std::size_t n) {
 
 class Tables {
   public:
+    static constexpr float kLeast = -0.45f, kMost = 0.5f;  // (eta - 1) / (eta + 1)
+
     Tables() {
         for (std::size_t e = 0; e < kEtas; ++e) {
             float const eta = node_eta(e);
@@ -63,7 +65,7 @@ class Tables {
   private:
     // In (eta - 1) / (eta + 1), the amplitude reflected at normal incidence: eta from 0.38 to 3.
     static constexpr std::size_t kEtas = 65, kAlphas = 17, kDepths = 73;
-    static constexpr float kLeast = -0.45f, kStep = 0.95f / (kEtas - 1);
+    static constexpr float kStep = (kMost - kLeast) / (kEtas - 1);
     // Depths 0, 0.02 (2^(k/6) - 1): up to 80.
     static constexpr float kDepthScale = 50.0f, kPerOctave = 6.0f;
 
@@ -128,6 +130,11 @@ float boundary_transmittance(Microfacets const& m, float eta, float depth, float
 float boundary_reflectance(Microfacets const& m, float eta, float mu) {
     return m.smooth() ? fresnel_dielectric(mu, eta)
                       : dielectric_reflection_albedo(m.kind, mu, alpha_of(m), eta);
+}
+
+bool diffuse_boundary_covers(float eta) {
+    float const r = (eta - 1.0f) / (eta + 1.0f);
+    return r >= Tables::kLeast && r <= Tables::kMost;
 }
 
 DiffuseBoundary diffuse_boundary(Microfacets const& m, float eta, float depth) {

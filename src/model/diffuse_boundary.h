@@ -16,7 +16,8 @@ float boundary_reflectance(Microfacets const& m, float eta, float mu);
 struct DiffuseBoundary {
     float back = 0, out = 0;
 };
-/// From tables, to 1e-3.
+/// From tables, to 1e-3, where they reach that index; beyond, that of the last.
 DiffuseBoundary diffuse_boundary(Microfacets const& m, float eta, float depth);
+bool diffuse_boundary_covers(float eta);
 
 }  // namespace nephroid

@@ -6,6 +6,8 @@
 #include "model/material.h"
 #include "model/texture.h"
 
+#include <cmath>
+
 namespace nephroid {
 
 /// A point of a surface where a material is asked what it is.
@@ -16,13 +18,21 @@ struct MaterialPoint {
     Wavelengths const& lambda;
 
     [[nodiscard]] MaterialData const& data() const { return assets.data(id); }
-    /// A float texture, or `otherwise` where there is none.
+    /// A float texture, or `otherwise` where there is none. Never NaN, which sums of infinities in textures can be: 0 then.
     [[nodiscard]] float number(TextureId texture, float otherwise) const {
-        return texture.valid() ? evaluate_float(assets, texture, at) : otherwise;
+        if (!texture.valid()) return otherwise;
+        float const x = evaluate_float(assets, texture, at);
+        return std::isnan(x) ? 0.0f : x;
     }
-    /// A spectrum texture, or `otherwise` where there is none.
+    /// A spectrum texture, or `otherwise` where there is none. Never NaN either.
     [[nodiscard]] Spectrum spectrum(TextureId texture, Spectrum otherwise) const {
-        return texture.valid() ? evaluate_spectrum(assets, texture, at, lambda) : otherwise;
+        return texture.valid() ? numbers(evaluate_spectrum(assets, texture, at, lambda)) : otherwise;
+    }
+    static Spectrum numbers(Spectrum s) {
+        if (!s.is_finite())
+            for (int i = 0; i < 4; ++i)
+                if (std::isnan(s[i])) s.set(i, 0.0f);
+        return s;
     }
     /// Microfacets of a roughness.
     [[nodiscard]] Microfacets facets(Roughness const& r) const;

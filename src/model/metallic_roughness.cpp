@@ -21,7 +21,7 @@ Microfacets facets_of(float roughness, float strength, bool multiscatter) {
 /// The largest of a colour's r, g, b, whatever the path's wavelengths.
 float top_of(MaterialPoint const& p, TextureId color, float otherwise) {
     if (!color.valid()) return otherwise;
-    Spectrum const rgb = evaluate_spectrum(p.assets, color, p.at, Wavelengths::rgb());
+    Spectrum const rgb = MaterialPoint::numbers(evaluate_spectrum(p.assets, color, p.at, Wavelengths::rgb()));
     return clamp(max(rgb[0], max(rgb[1], rgb[2])), 0.0f, kInfinity);
 }
 

@@ -275,6 +275,10 @@ MetallicRoughnessMaterial Materials::metallic_roughness(Params& p) {
     m.transmission.factor = number("transmission");
     m.transmission.thin = p.boolean("thinwalled", true);
     m.transmission.interior = interior(p);
+    for (char const* name : {"priority", "absorption", "attenuationcolor"})
+        if (m.transmission.thin && p.find(name))
+            p.note("\"" + std::string(name) +
+                   "\" is ignored: thin walls have no inside; set \"thinwalled\" to false");
     m.clearcoat = {number("clearcoat"), number("clearcoatroughness")};
     m.sheen = {albedo(p, "sheencolor", std::nullopt), number("sheenroughness")};
     m.anisotropy = {number("anisotropy"), radians(p.number("anisotropyrotation", 0))};

@@ -4,6 +4,7 @@
 #include "shown.h"
 #include "spectra.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
@@ -75,6 +76,8 @@ void Media::define(std::string const& name, Params& p) {
 
 void Media::use(std::string const& name, SourceLocation where) { used_.try_emplace(name, where); }
 
+void Media::surround(std::string const& name, SourceLocation where) { outside_.try_emplace(name, where); }
+
 void Media::fill(GroupId group, std::string const& medium) {
     filled_.push_back({group, context_.scene.groups[group.value].objects.size(), medium});
 }
@@ -85,6 +88,15 @@ void Media::finish() {
     for (auto const& [name, where] : used_)
         if (!media_.contains(name))
             context_.note(where, "no medium \"" + shown(name) + "\" is defined" + did_you_mean(name, names));
+    // Where it is inside of something else, that brings it along.
+    for (auto const& [name, where] : outside_) {
+        auto const medium = media_.find(name);
+        if (medium == media_.end() || !medium->second.absorption) continue;
+        if (std::none_of(filled_.begin(), filled_.end(), [&](Filled const& f) { return f.medium == name; }))
+            context_.note(where,
+                          "what medium \"" + shown(name) +
+                              "\" absorbs outside of surfaces is not rendered, as nothing has it inside");
+    }
     auto& scene = context_.scene;
     std::map<std::pair<std::uint32_t, std::string>, MaterialId> made;  // one material for each pair
     std::set<std::string> noted;

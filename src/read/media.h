@@ -18,6 +18,8 @@ class Media {
     void define(std::string const& name, Params& p);
     /// MediumInterface names it.
     void use(std::string const& name, SourceLocation where);
+    /// MediumInterface names it as what is outside.
+    void surround(std::string const& name, SourceLocation where);
     /// The object that is about to be added to `group` has `medium` inside.
     void fill(GroupId group, std::string const& medium);
 
@@ -38,6 +40,7 @@ class Media {
     Context& context_;
     std::map<std::string, Medium, std::less<>> media_;
     std::map<std::string, SourceLocation, std::less<>> used_;  // and where first
+    std::map<std::string, SourceLocation, std::less<>> outside_;
     std::vector<Filled> filled_;
 };
 

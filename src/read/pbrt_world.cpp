@@ -120,6 +120,7 @@ void PbrtReader::medium_interface(Tokenizer& tokens, SourceLocation where) {
     }
     for (auto const& name : {state_.inside_medium, outside})
         if (!name.empty()) media_.use(name, where);
+    if (!outside.empty() && outside != state_.inside_medium) media_.surround(outside, where);
 }
 
 void PbrtReader::reverse_orientation(Tokenizer& /*tokens*/, SourceLocation /*where*/) {

@@ -34,7 +34,7 @@ inline float opacity(Assets const& assets, Emitter const& e, Vec3 p, Vec2 uv) {
     TexturePoint at;
     at.p = p;
     at.uv = uv;
-    return clamp(evaluate_float(assets, e.alpha, at), 0.0f, 1.0f);
+    return min(max(evaluate_float(assets, e.alpha, at), 0.0f), 1.0f);  // 0 if it is no number
 }
 
 /// How bright it is there relative to Emitter::radiance, for choosing places.

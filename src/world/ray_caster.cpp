@@ -39,8 +39,9 @@ struct UserGeometry {
 };
 
 /// Is the surface there at a hit, where its alpha is between 0 and 1 by chance? The chance is a hash of the direction and of the place
-/// on the surface: another ray has another, the same ray always the same, and a scaled scene keeps them. Looked up at its finest:
-/// what a ray hits must not depend on what it is for.
+/// on the surface: another ray has another, the same ray always the same, and a scaled scene keeps them. A triangle's place counts,
+/// too, lest parallel rays all have one where its texture coordinates are all the same. Looked up at its finest: what a ray hits must
+/// not depend on what it is for.
 bool covers(UserGeometry const& g, std::uint32_t geometry, std::uint32_t instance, ShapeHit const& hit,
             Vec3 local, Vec3 direction) {
     TextureId const alpha = g.record->object->alpha;
@@ -56,7 +57,8 @@ bool covers(UserGeometry const& g, std::uint32_t geometry, std::uint32_t instanc
     if (!(opacity > 0.0f)) return false;
     auto const bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     std::uint64_t const key = hash_keys(bits(direction.x), bits(direction.y), bits(direction.z), bits(s.uv.x),
-                                        bits(s.uv.y), hit.part, geometry, instance);
+                                        bits(s.uv.y), bits(static_cast<float>(hit.u)),
+                                        bits(static_cast<float>(hit.v)), hit.part, geometry, instance);
     return to_unit_double(key) < static_cast<double>(opacity);
 }
 

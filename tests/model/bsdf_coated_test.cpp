@@ -262,6 +262,80 @@ TEST_CASE("coats: what loses nothing returns all light but what max_depth cuts o
     }
 }
 
+TEST_CASE("coats: between two mirrors f counts the turns that samples make") {
+    Random r(31);
+    for (int const depth : {1, 2, 3, 4}) {
+        CAPTURE(depth);
+        CoatLayer l = coat(0, 1, 1);
+        l.max_depth = static_cast<std::uint8_t>(depth);
+        CoatedConductorBsdf b = over_copper(l, 0);
+        b.eta = Spectrum(1);
+        b.k = Spectrum(200);
+        Mean values, spread, delta;
+        Vec3 const wo = direction(0.7, 1);
+        for (int i = 0; i < samples(100'000, 2'000'000); ++i) {
+            add_sample(b, wo, r, spread, delta);
+            Vec3 const wi = square_to_uniform_hemisphere(random_square(r));
+            b.seed = static_cast<std::uint32_t>(r.bits());
+            values.add(static_cast<double>(evaluate(b, wo, wi, Mode::Radiance)[0] * wi.z) * 2 * kPiD);
+        }
+        CHECK(same(values, spread) > sidak(4));
+        CHECK(values.standard_error() < 0.01 * values.mean());
+    }
+}
+
+TEST_CASE("coats: the branch of a smooth coat is what samples send into the mirrored direction") {
+    Random r(32);
+    auto const check = [&](auto const& b, bool smooth) {
+        for (Vec3 const wo : few()) {
+            DeltaBranches const branches = delta_branches(b, wo, Mode::Radiance);
+            CHECK_FALSE(branches.transmitted);
+            REQUIRE(branches.reflected.has_value() == smooth);
+            if (!smooth) continue;
+            CHECK(branches.reflected->wi == Vec3{-wo.x, -wo.y, wo.z});
+            Mean spread, delta;
+            for (int i = 0; i < samples(20'000, 500'000); ++i) {
+                auto copy = b;
+                add_sample(copy, wo, r, spread, delta);
+            }
+            CHECK(std::abs(delta.mean() - throughput(*branches.reflected)) <
+                  5 * delta.standard_error() + 1e-4);
+        }
+    };
+    for (float const medium : {0.0f, 0.9f}) {
+        check(over_diffuse(coat(0, 0.3f, medium)), true);
+        check(over_diffuse(coat(0.3f, 0.3f, medium)), false);
+        check(over_copper(coat(0, 0.3f, medium), 0), true);
+        check(over_copper(coat(0, 0.3f, medium), 0.3f), true);
+        check(over_copper(coat(0.3f, 0.3f, medium), 0), false);
+    }
+    CoatedConductorBsdf const copper = over_copper(coat(0), 0);
+    for (float const base : {0.0f, 0.3f})
+        check(ClosedCoatedConductorBsdf{copper.eta, copper.k, {}, {.ax = base, .ay = base}, 1.5f, 0.01f},
+              true);
+    check(PlasticBsdf{Spectrum(0.5f), Spectrum(0.7f)}, true);
+    check(PlasticBsdf{Spectrum(0.5f), Spectrum(0.7f), 1.5f, {.ax = 0.2f, .ay = 0.2f}}, false);
+}
+
+TEST_CASE("coats: a scene scaled by a power of two has the same walks, another place has others") {
+    Scene s;
+    CoatedDiffuseMaterial m{add_color(s, {0.5f, 0.5f, 0.5f}), {}};
+    m.coat.model = CoatModel::Stochastic;
+    MaterialId const id = s.add(Material{m, "", {}});
+    Assets const assets(s);
+    auto const seed_at = [&](Vec3 p) {
+        TexturePoint at;
+        at.p = p;
+        Bsdf b;
+        REQUIRE(make_bsdf(assets, id, at, Wavelengths::rgb(), b));
+        return std::get<CoatedDiffuseBsdf>(b).seed;
+    };
+    Vec3 const p{0.3f, -1.7f, 0};
+    for (float const k : {0x1p-13f, 0x1p20f}) CHECK(seed_at(p * k) == seed_at(p));
+    CHECK(seed_at({0.3f, 1.7f, 0}) != seed_at(p));
+    CHECK(seed_at({0.30001f, -1.7f, 0}) != seed_at(p));
+}
+
 TEST_CASE("coats: one scattering in a thin cloud over black") {
     // Chandrasekhar 1960, eq. 3.2: f = albedo p / (mu + mu') (1 - exp(-tau (1/mu + 1/mu'))), p = 1 / 4 pi.
     Random r(17);
@@ -379,6 +453,10 @@ TEST_CASE("which form a coat takes") {
         cloudy.coat.model = model;
         CHECK(std::holds_alternative<CoatedDiffuseBsdf>(made(cloudy)));
     }
+    // Nor does the closed form know how much a boundary of such an index reflects back.
+    CoatedDiffuseMaterial dense{grey, {}};
+    dense.coat.eta = ConstantSpd{4.0f};
+    CHECK(std::holds_alternative<CoatedDiffuseBsdf>(made(dense)));
     CoatedConductorMaterial m;
     m.conductor.reflectance = grey;
     auto const smooth = made(m);

@@ -185,6 +185,13 @@ TEST_CASE("media are noted") {
         notes(read("MakeNamedMedium \"fog\" \"string type\" \"cloud\" WorldBegin\nMediumInterface \"fig\" "
                    "\"fog\"")),
         "t.pbrt:2: no medium \"fig\" is defined (did you mean \"fog\"?)"));
+    // What is outside absorbs only as the inside of something else.
+    std::string const juice =
+        "MakeNamedMedium \"juice\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0] WorldBegin "
+        "Material \"dielectric\"\nMediumInterface \"\" \"juice\" Shape \"sphere\" ";
+    CHECK(notes(read(juice)).find("t.pbrt:2: what medium \"juice\" absorbs outside of surfaces") !=
+          std::string::npos);
+    CHECK(read(juice + "MediumInterface \"juice\" \"\" Shape \"sphere\"").notes.empty());
     // What Attribute sets for media is theirs: here their type.
     CHECK(error_in("Attribute \"medium\" \"string type\" \"homogeneous\" MakeNamedMedium \"a\" WorldBegin") ==
           "no error");

@@ -164,6 +164,8 @@ TEST_CASE("coats, transmission, measured, and the models that pbrt does not have
     CHECK(notes(scene).empty());
     validate(scene);
     CHECK(contains(error_in_world("Material \"metallicroughness\" \"float ior\" 0.5"), "at least 1"));
+    CHECK(contains(notes(with("Material \"metallicroughness\" \"float absorption\" 2")),
+                   "thin walls have no inside"));
 }
 
 TEST_CASE("interiors: priority and absorption") {

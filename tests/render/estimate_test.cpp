@@ -4,6 +4,9 @@
 #include "films.h"
 #include "world/estimate.h"
 
+#include <filesystem>
+#include <fstream>
+
 using namespace nephroid;
 using namespace nephroid::test;
 
@@ -44,6 +47,19 @@ TEST_CASE("the estimate is not below what the world holds, nor far above") {
         CHECK(estimated > world.memory().total());
         CHECK(estimated < 3 * world.memory().total());
     }
+}
+
+TEST_CASE("the estimate counts the files of measured materials, once each, and alpha on emitters") {
+    char const* const path = "measured-of-64-KiB.bsdf";
+    std::ofstream(path) << std::string(1 << 16, 'x');
+    Scene scene = read_text("WorldBegin\nAreaLightSource \"diffuse\"\nShape \"sphere\"");
+    std::uint64_t const before = added(scene);
+    for (int i = 0; i < 2; ++i) scene.add(Material{MeasuredMaterial{{path, {}}}, "", {}});
+    CHECK(added(scene) - before == 5 * (1 << 16));
+    std::filesystem::remove(path);
+    CHECK(added(scene) == before);
+    scene.world().objects.front().alpha = scene.add(Texture{ConstantFloatTexture{0.5f}, {}});
+    CHECK(added(scene) >= before + 256 * 256 * 4);
 }
 
 TEST_CASE("the estimate counts what is not expanded") {

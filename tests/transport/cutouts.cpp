@@ -71,6 +71,13 @@ TEST_CASE("between 0 and 1 alpha is a chance: what is seen through k screens is 
     }
 }
 
+TEST_CASE("parallel rays tell the places of a triangle apart, whatever its texture coordinates") {
+    TriangleMesh m = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    m.uv.assign(4, Vec2{0, 0});
+    auto const third = [](Scene& s) { return number(s, 0.3f); };
+    check_mean(compile(before_light(m, third, false)), settings(path(1)), 256, 0.7);
+}
+
 TEST_CASE("a sphere whose front is cut away shows its back") {
     Scene s;
     auto& ball = add(s, Sphere{1.0f}, diffuse(s, 0.0f));

@@ -65,6 +65,26 @@ TEST_CASE("an absorbing slab: T = (1-F)^2 e^-a / (1 - F^2 e^-2a)") {
         }
 }
 
+TEST_CASE("thin walls have no inside that could absorb") {
+    for (bool const thin : {true, false}) {
+        Scene s;
+        MetallicRoughnessMaterial m;
+        m.base_color = spectrum(s, ConstantSpd{1});
+        m.metallic = m.roughness = s.add(Texture{ConstantFloatTexture{0}, {}});
+        m.transmission.factor = s.add(Texture{ConstantFloatTexture{1}, {}});
+        m.transmission.thin = thin;
+        m.transmission.interior.absorption = ConstantSpd{50};
+        m.transmission.interior.priority = 1;
+        slab(s, 0, 1, material(s, m));
+        look_down(s);
+        World const world = compile(s);
+        CHECK(world.encloses() == !thin);
+        double const f = 0.04;
+        // Two walls, each of one facet: all orders of reflection between them.
+        check_mean(world, settings(path(40)), 64, thin ? (1 - f) / (1 + f) : 0.0);
+    }
+}
+
 TEST_CASE("a liquid that overlaps its glass is the same as one that meets it") {
     // Glass from -4 to -1; water from -1.5 upwards to 0: at -1.5 … -1 there is glass.
     Stack expected;

@@ -75,6 +75,29 @@ TEST_CASE("Whitted's tree sees in mirrors and glass what chance sees") {
                 {"whitted", &world, settings(WhittedIntegrator{8}, 8, 8), 8}});
 }
 
+TEST_CASE("Whitted's tree sees in coats what chance sees") {
+    // Black under the coat: what it mirrors is all there is.
+    for (int const kind : {0, 1, 2}) {
+        Scene s;
+        PlasticMaterial plastic;
+        plastic.reflectance = spectrum(s, ConstantSpd{0});
+        CoatedDiffuseMaterial walks{plastic.reflectance, {}};
+        walks.coat.model = CoatModel::Stochastic;
+        CoatedConductorMaterial metal;
+        metal.conductor.reflectance = spectrum(s, ConstantSpd{0.7f});
+        MaterialId const m = kind == 0   ? material(s, plastic)
+                             : kind == 1 ? material(s, walks)
+                                         : material(s, metal);
+        add(s, Sphere{0.4f, -0.4f, 0.4f}, m);
+        s.add(sky());
+        look_parallel(s, {0, -3, 0}, {0, 1, 0}, 0.5f);
+        World const world = compile(s);
+        CAPTURE(kind);
+        check_same({{"path", &world, settings(path(8), 8, 8), 64},
+                    {"whitted", &world, settings(WhittedIntegrator{8}, 8, 8), 8}});
+    }
+}
+
 TEST_CASE("a mixture is the mean of what it mixes") {
     for (float amount : {0.0f, 0.3f, 1.0f}) {
         Scene s;

@@ -52,7 +52,10 @@ Scene room(double k) {
     add(Sphere{0.7f * f, -0.7f * f, 0.7f * f}, glass, translate(-1.2, -1, 0.7));
     add(sized(icosphere(2, 0.6f)), glass, translate(0.3, -1.5, 0.6));
     add(Box{Vec3{-0.5f} * f, Vec3{0.5f} * f}, copper, translate(1.6, 0, 0.5) * *rotate(30, 0, 0, 1));
-    add(Cylinder{0.3f * f, 0, 1.2f * f}, grey, translate(-2, 1, 0));
+    // Walks between layers have numbers of the place.
+    CoatedDiffuseMaterial lacquer{s.add(Texture{ConstantSpectrumTexture{ConstantSpd{0.6f}}, {}}), {}};
+    lacquer.coat.model = CoatModel::Stochastic;
+    add(Cylinder{0.3f * f, 0, 1.2f * f}, s.add(Material{lacquer, "", {}}), translate(-2, 1, 0));
     add(BilinearMesh{.p = {Vec3{-1, 0, 0} * f, Vec3{1, 0, 0} * f, Vec3{-1, 0.3f, 1} * f,
                            Vec3{1, -0.3f, 1} * f},
                      .patches = {{0, 1, 2, 3}}},

@@ -50,11 +50,13 @@ class Assets {
     /// Memory of the pictures, and how many files they are.
     [[nodiscard]] std::size_t image_bytes() const { return pictures_.bytes(); }
     [[nodiscard]] std::size_t image_files() const { return pictures_.files(); }
-    [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes(); }
+    /// Of spectra and of measured materials, which are spectra by direction.
+    [[nodiscard]] std::size_t spectrum_bytes() const { return spectra_.bytes() + measured_bytes_; }
 
   private:
     Scene const* scene_ = nullptr;
     SpectrumStore spectra_;
+    std::size_t measured_bytes_ = 0;
     RuntimeSpectrum neutral_;
     std::vector<TextureData> textures_;
     std::vector<MaterialData> materials_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/bsdf_sample.h"
+#include "model/bsdf_smooth.h"
 #include "model/microfacet.h"
 
 namespace nephroid {
@@ -42,5 +43,7 @@ NEPHROID_BSDF(CoatedDiffuseBsdf);
 NEPHROID_BSDF(CoatedConductorBsdf);
 static_assert(ScatteringModel<CoatedDiffuseBsdf>);
 static_assert(ScatteringModel<CoatedConductorBsdf>);
+DeltaBranches delta_branches(CoatedDiffuseBsdf const& b, Vec3 wo, Mode mode);
+DeltaBranches delta_branches(CoatedConductorBsdf const& b, Vec3 wo, Mode mode);
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/bsdf_sample.h"
+#include "model/bsdf_smooth.h"
 #include "model/microfacet.h"
 
 namespace nephroid {
@@ -21,5 +22,6 @@ inline BsdfTraits traits(ClosedCoatedConductorBsdf const& b) {
 }
 NEPHROID_BSDF(ClosedCoatedConductorBsdf);
 static_assert(ScatteringModel<ClosedCoatedConductorBsdf>);
+DeltaBranches delta_branches(ClosedCoatedConductorBsdf const& b, Vec3 wo, Mode mode);
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/bsdf_sample.h"
+#include "model/bsdf_smooth.h"
 #include "model/microfacet.h"
 
 namespace nephroid {
@@ -20,5 +21,6 @@ struct PlasticBsdf {
 inline BsdfTraits traits(PlasticBsdf const& b) { return {.chooses = true, .hero_only = b.dispersive}; }
 NEPHROID_BSDF(PlasticBsdf);
 static_assert(ScatteringModel<PlasticBsdf>);
+DeltaBranches delta_branches(PlasticBsdf const& b, Vec3 wo, Mode mode);
 
 }  // namespace nephroid

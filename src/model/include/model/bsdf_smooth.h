@@ -39,6 +39,17 @@ static_assert(ScatteringModel<ConductorBsdf>);
 struct DeltaBranches {
     std::optional<BsdfSample> reflected, transmitted;
 };
+/// A mirror that reflects so much of each lane, and nothing beside it.
+inline DeltaBranches mirror_branch(Spectrum reflectance, Vec3 wo) {
+    if (wo.z == 0.0f) return {};
+    DeltaBranches d;
+    BsdfSample& s = d.reflected.emplace();
+    s.wi = {-wo.x, -wo.y, wo.z};
+    s.f = reflectance / abs_cos_theta(wo);
+    s.pdf = 1.0f;
+    s.delta = true;
+    return d;
+}
 DeltaBranches delta_branches(DielectricBsdf const& b, Vec3 wo, Mode mode);
 DeltaBranches delta_branches(ThinDielectricBsdf const& b, Vec3 wo, Mode mode);
 DeltaBranches delta_branches(ConductorBsdf const& b, Vec3 wo, Mode mode);
