@@ -35,31 +35,32 @@ MaterialId Interiors::highest(Assets const& assets, MaterialId without) const {
     int rank = -1;
     bool skipped = !without.valid();
     for (std::uint32_t i = count_; i-- > 0;) {  // the newest first
-        if (!skipped && bodies_[i] == without) {
+        if (!skipped && bodies_[i].surface == without) {
             skipped = true;
             continue;
         }
-        int const priority = assets.data(bodies_[i]).priority;
-        if (priority > rank) best = bodies_[i], rank = priority;
+        MaterialId const m = bodies_[i].material;
+        int const priority = assets.data(m).priority;
+        if (priority > rank) best = m, rank = priority;
     }
     return best;
 }
 
-bool Interiors::hides(Assets const& assets, MaterialId m, bool inwards) const {
-    int const priority = assets.data(m).priority;
+bool Interiors::hides(Assets const& assets, Boundary const& b, bool inwards) const {
+    int const priority = assets.data(b.material).priority;
     if (priority == 0) return false;
-    MaterialId const other = highest(assets, inwards ? MaterialId{} : m);
+    MaterialId const other = highest(assets, inwards ? MaterialId{} : b.surface);
     return other.valid() && assets.data(other).priority >= priority;
 }
 
-void Interiors::cross(MaterialId m, bool inwards) {
+void Interiors::cross(Boundary const& b, bool inwards) {
     if (inwards) {
-        if (count_ < kMost) bodies_[count_++] = m;
+        if (count_ < kMost) bodies_[count_++] = b;
         return;
     }
     // Out of the one that was entered last; out of what was never entered (an open surface) changes nothing.
     for (std::uint32_t i = count_; i-- > 0;)
-        if (bodies_[i] == m) {
+        if (bodies_[i].surface == b.surface) {
             std::copy(bodies_.begin() + i + 1, bodies_.begin() + count_, bodies_.begin() + i);
             --count_;
             return;
@@ -71,10 +72,10 @@ Spectrum Interiors::absorption(Assets const& assets, Wavelengths const& lambda) 
     return m.valid() ? assets.data(m).absorption.sample(lambda) : Spectrum{};
 }
 
-void Interiors::immerse(Assets const& assets, MaterialId m, bool inwards, Wavelengths const& lambda,
+void Interiors::immerse(Assets const& assets, Boundary const& b, bool inwards, Wavelengths const& lambda,
                         Bsdf& bsdf) const {
-    if (assets.data(m).priority == 0) return;
-    MaterialId const around = highest(assets, inwards ? MaterialId{} : m);
+    if (assets.data(b.material).priority == 0) return;
+    MaterialId const around = highest(assets, inwards ? MaterialId{} : b.surface);
     if (!around.valid() || assets.data(around).priority == 0) return;
     RuntimeSpectrum const& eta = assets.data(around).eta;
     immerse_in(index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant(), bsdf);
@@ -97,7 +98,7 @@ Interiors interiors_at(World const& world, Vec3 p, RayStats& stats) {
         else if (count > 0)
             --count;
         else
-            found.cross(hit.material, true);
+            found.cross({hit.material, hit.material}, true);
     }
     return found;
 }

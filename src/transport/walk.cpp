@@ -69,7 +69,7 @@ Spectrum transmittance(PathContext const& c, Interiors const& interiors, float d
 bool is_hidden(PathContext const& c, Walk const& walk, Vertex const& v) {
     Assets const& assets = c.world.assets();
     return assets.data(v.material).encloses &&
-           walk.interiors.hides(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
+           walk.interiors.hides(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
 }
 
 /// The bodies that light along w is in, after leaving v.
@@ -77,8 +77,11 @@ Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w
     Interiors in = walk.interiors;
     float const came = dot(walk.ray.d, v.hit.s.ng), goes = dot(w, v.hit.s.ng);
     bool const crossed = came * goes > 0.0f;
-    if (crossed && v.material.valid() && c.world.assets().data(v.material).encloses)
-        in.cross(v.material, goes < 0.0f);
+    if (!crossed || !v.material.valid()) return in;
+    Assets const& assets = c.world.assets();
+    bool const inwards = goes < 0.0f;
+    if (assets.data(inwards ? v.material : v.hit.material).encloses)
+        in.cross({v.hit.material, v.material}, inwards);
     return in;
 }
 
@@ -128,7 +131,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
             v.material = resolve_mix(assets, v.material, texture_point(c, walk, hit), mix);
         }
         if (c.world.encloses() && v.material.valid() && is_hidden(c, walk, v)) {
-            walk.interiors.cross(v.material, dot(walk.ray.d, hit.s.ng) < 0.0f);
+            walk.interiors.cross({hit.material, v.material}, dot(walk.ray.d, hit.s.ng) < 0.0f);
             // Shadow rays end at such a boundary: what comes now could not be sampled.
             walk.specular = true;
             walk.ray = hit.spawn(walk.ray.d);
@@ -154,7 +157,8 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     TexturePoint const& at = here ? *here : kAnywhere;
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     if (data.encloses)
-        walk.interiors.immerse(assets, v.material, dot(walk.ray.d, v.hit.s.ng) < 0.0f, c.lambda, v.bsdf);
+        walk.interiors.immerse(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f,
+                               c.lambda, v.bsdf);
     if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
     v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
     v.wo_local = v.frame.to_local(-walk.ray.d);

@@ -73,15 +73,32 @@ TEST_CASE("thin walls have no inside that could absorb") {
         m.metallic = m.roughness = s.add(Texture{ConstantFloatTexture{0}, {}});
         m.transmission.factor = s.add(Texture{ConstantFloatTexture{1}, {}});
         m.transmission.thin = thin;
-        m.transmission.interior.absorption = ConstantSpd{50};
+        m.transmission.interior.absorption = ConstantSpd{1};
         m.transmission.interior.priority = 1;
         slab(s, 0, 1, material(s, m));
         look_down(s);
         World const world = compile(s);
         CHECK(world.encloses() == !thin);
-        double const f = 0.04;
-        // Two walls, each of one facet: all orders of reflection between them.
-        check_mean(world, settings(path(40)), 64, thin ? (1 - f) / (1 + f) : 0.0);
+        Stack stack;
+        stack.boundary(1, 1.5);
+        if (!thin) stack.layer(1);
+        stack.boundary(1.5, 1);
+        check_mean(world, settings(path(40)), 64, stack.t);
+    }
+}
+
+TEST_CASE("a body of mixed boundaries is left by another than it was entered by") {
+    for (int const priority : {0, 1}) {
+        Scene s;
+        TextureId const half = s.add(Texture{ConstantFloatTexture{0.5f}, {}});
+        MaterialId const a = body(s, 1, priority, 0.5f), b = body(s, 1, priority, 0.5f);
+        slab(s, 0, 1, material(s, MixMaterial{a, b, half}));
+        // Clear or absorbing by where it was entered: half of the light goes by each.
+        slab(s, 2, 3, material(s, MixMaterial{a, body(s, 1, 0), half}));
+        look_down(s);
+        World const world = compile(s);
+        for (Integrator const& i : {Integrator{path(20)}, Integrator{naive(path(20))}})
+            check_mean(world, settings(i), 256, std::exp(-0.5) * (0.5 + 0.5 * std::exp(-0.5)));
     }
 }
 

@@ -12,24 +12,30 @@
 
 namespace nephroid {
 
+/// What a surface is made of, and what a mix of it was resolved to where it was met. A body is what was entered, and is left by its
+/// surface, whatever that is there.
+struct Boundary {
+    MaterialId surface, material;
+};
+
 class Interiors {
   public:
-    /// Is the boundary of `m`, met from outside (inwards) or from inside, within a body that outranks it?
-    [[nodiscard]] bool hides(Assets const& assets, MaterialId m, bool inwards) const;
-    void cross(MaterialId m, bool inwards);
+    /// Is this boundary, met from outside (inwards) or from inside, within a body that outranks it?
+    [[nodiscard]] bool hides(Assets const& assets, Boundary const& b, bool inwards) const;
+    void cross(Boundary const& b, bool inwards);
     /// Absorption where the path is, 1 / length.
     [[nodiscard]] Spectrum absorption(Assets const& assets, Wavelengths const& lambda) const;
-    /// Makes the index of a boundary of `m` relative to what is around it there.
-    void immerse(Assets const& assets, MaterialId m, bool inwards, Wavelengths const& lambda,
+    /// Makes the index of a boundary relative to what is around it there.
+    void immerse(Assets const& assets, Boundary const& b, bool inwards, Wavelengths const& lambda,
                  Bsdf& bsdf) const;
     [[nodiscard]] bool empty() const { return count_ == 0; }
 
   private:
-    /// The body that is there, once the one of `without` that was entered last is left; none for empty space.
+    /// The body that is there, once the one with the surface `without` that was entered last is left; none for empty space.
     [[nodiscard]] MaterialId highest(Assets const& assets, MaterialId without = {}) const;
 
     static constexpr std::size_t kMost = 8;  // bodies beyond that are forgotten
-    std::array<MaterialId, kMost> bodies_;   // in the order in which they were entered
+    std::array<Boundary, kMost> bodies_;     // in the order in which they were entered
     std::uint32_t count_ = 0;
 };
 
