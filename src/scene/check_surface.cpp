@@ -34,18 +34,21 @@ void check_mapping(Check const& c, TextureMapping const& mapping) {
 
 void check_index(Check const& c, Spd const& eta) {
     check_spd(c, eta, "the index of refraction");
-    auto const above_0 = [&](bool good) {
-        c.require(good, "the index of refraction must be above 0 at every wavelength (glass: 1.5)");
+    // Beyond, Fresnel's formulas leave the floats; no dielectric is near either end.
+    constexpr float kLeast = 1e-3f, kMost = 1e3f;
+    auto const check = [&](float index) {
+        c.require(index > 0, "the index of refraction must be above 0 at every wavelength (glass: 1.5)");
+        c.require(index >= kLeast && index <= kMost,
+                  "the index of refraction must be between 0.001 and 1000 (glass: 1.5)");
     };
-    auto const rgb_above_0 = [&](auto const& s) { above_0(s.rgb.x > 0 && s.rgb.y > 0 && s.rgb.z > 0); };
+    auto const check_rgb = [&](auto const& s) { check(s.rgb.x), check(s.rgb.y), check(s.rgb.z); };
     match(
-        eta, [&](ConstantSpd const& s) { above_0(s.value > 0); },
+        eta, [&](ConstantSpd const& s) { check(s.value); },
         [&](TabulatedSpd const& s) {
-            for (float const value : s.value) above_0(value > 0);
+            for (float const value : s.value) check(value);
         },
-        [&](RgbAlbedoSpd const& s) { rgb_above_0(s); }, [&](RgbUnboundedSpd const& s) { rgb_above_0(s); },
-        [&](RgbIlluminantSpd const& s) { rgb_above_0(s); }, [](BlackbodySpd const&) {},
-        [](NamedSpd const&) {});
+        [&](RgbAlbedoSpd const& s) { check_rgb(s); }, [&](RgbUnboundedSpd const& s) { check_rgb(s); },
+        [&](RgbIlluminantSpd const& s) { check_rgb(s); }, [](BlackbodySpd const&) {}, [](NamedSpd const&) {});
 }
 
 void check_interior(Check const& c, Interior const& inside) {

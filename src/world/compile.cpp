@@ -109,6 +109,16 @@ bool is_invisible(Scene const& scene, Assets const& assets, Object const& o) {
     return !o.light && passage_of(scene, assets, o) == Passage::Interface;
 }
 
+/// Paths know the bodies that they are in by the boundaries that they cross.
+void note_open_body(Scene& scene, Assets const& assets, Object const& o) {
+    if (!o.material.valid() || !assets.data(o.material).encloses) return;
+    bool const holes = o.alpha.valid() || assets.data(o.material).passes;
+    if (holes)
+        scene.note(o.where,
+                   "light that enters or leaves an absorbing or nested body by holes of alpha or of an "
+                   "\"interface\" is taken to stay where it was");
+}
+
 struct Builder {
     Scene& scene;
     Assets& assets;
@@ -131,6 +141,7 @@ struct Builder {
             std::uint32_t lights_of_group = 0;
             for (Object const& o : g.objects) {
                 if (is_invisible(scene, assets, o)) continue;
+                note_open_body(scene, assets, o);
                 ObjectRecord r;
                 r.object = &o;
                 r.material = o.material;

@@ -154,6 +154,8 @@ TEST_CASE("spectra, textures and materials out of range are refused") {
     all_refused({
         {"scene.pbrt:8: the index of refraction must be above 0", eta(ConstantSpd{0})},
         {"the index of refraction must be above 0", eta(ConstantSpd{-1})},
+        {"must be between 0.001 and 1000", eta(ConstantSpd{1e20f})},
+        {"must be between 0.001 and 1000", eta(ConstantSpd{1e-20f})},
         {"the index of refraction holds a number that is not finite", eta(ConstantSpd{kInfinity})},
         {"must increase", eta(TabulatedSpd{{400, 400}, {1, 1}})},
         {"must increase", eta(TabulatedSpd{{500, 400}, {1, 1}})},
