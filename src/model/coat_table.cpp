@@ -1,34 +1,27 @@
 #include "coat_table.h"
 
+#include "node_place.h"
+
 #include <bit>
 
-// Linked in by the assembler (cmake/coat.cmake).
+// Linked in by the assembler (cmake/built_table.cmake).
 extern "C" nephroid::CoatTable const nephroid_coat_table;
 
 namespace nephroid {
 
 namespace {
 
-struct Place {
-    std::size_t i;
-    float t;
-};
-Place place(float x, std::size_t n) {
-    x = clamp(x, 0.0f, static_cast<float>(n - 1));
-    std::size_t const i = min(static_cast<std::size_t>(x), n - 2);
-    return {i, x - static_cast<float>(i)};
-}
-Place at_eta(float eta) { return place(CoatTable::eta_place(eta), CoatTable::kEtas); }
-Place at_alpha(float alpha) { return place(CoatTable::alpha_place(alpha), CoatTable::kAlphas); }
-Place at_mu(float mu) { return place(CoatTable::mu_place(mu), CoatTable::kMus); }
-Place at_depth(float d) {
-    return place(CoatTable::depth_place(max(d, CoatTable::kDepthLo)), CoatTable::kDepths);
+NodePlace at_eta(float eta) { return {CoatTable::eta_place(eta), CoatTable::kEtas}; }
+NodePlace at_alpha(float alpha) { return {CoatTable::alpha_place(alpha), CoatTable::kAlphas}; }
+NodePlace at_mu(float mu) { return {CoatTable::mu_place(mu), CoatTable::kMus}; }
+NodePlace at_depth(float d) {
+    return {CoatTable::depth_place(max(d, CoatTable::kDepthLo)), CoatTable::kDepths};
 }
 
 /// Multilinear: nodes[i + 0 or 1]… in each dimension.
 float between(float const& node) { return node; }
 template <std::size_t N, class T, class... Rest>
-float between(T const (&nodes)[N], Place p, Rest... rest) {
+float between(T const (&nodes)[N], NodePlace p, Rest... rest) {
     float const low = between(nodes[p.i], rest...);
     return p.t > 0.0f ? lerp(p.t, low, between(nodes[p.i + 1], rest...)) : low;
 }
@@ -48,10 +41,10 @@ float coat_way_out(float eta, float alpha, float depth) {
 CoatTable::Lobes coat_lobes(float eta, float coat, float base, float mu) {
     constexpr std::size_t kNumbers = sizeof(CoatTable::Lobes) / sizeof(float);
     using Numbers = std::array<float, kNumbers>;
-    Place const e = at_eta(eta);
-    Place const a = at_alpha(coat);
-    Place const b = at_alpha(base);
-    Place const m = at_mu(mu);
+    NodePlace const e = at_eta(eta);
+    NodePlace const a = at_alpha(coat);
+    NodePlace const b = at_alpha(base);
+    NodePlace const m = at_mu(mu);
     Numbers sum{};
     for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)

@@ -1,6 +1,8 @@
 // What a dielectric boundary does to light as a whole.
 #include "diffuse_boundary.h"
 
+#include "node_place.h"
+
 #include "coat_table.h"
 #include "model/fresnel.h"
 #include "model/microfacet_albedo.h"
@@ -16,17 +18,6 @@ float alpha_of(Microfacets const& m) { return std::sqrt(m.ax * m.ay); }
 
 /// Cosine inside of the direction that mu outside refracts to; 0 where it does not (total reflection by a thinner layer).
 float refracted_cosine(float mu, float eta) { return safe_sqrt(1.0f - (1.0f - mu * mu) / (eta * eta)); }
-
-/// Nodes in one variable, evenly spaced from 0 to n - 1.
-struct Place {
-    std::size_t i;
-    float t;
-};
-Place place(float x, std::size_t n) {
-    x = clamp(x, 0.0f, static_cast<float>(n - 1));
-    std::size_t const i = min(static_cast<std::size_t>(x), n - 2);
-    return {i, x - static_cast<float>(i)};
-}
 
 class Tables {
   public:
@@ -44,16 +35,16 @@ class Tables {
         }
     }
     [[nodiscard]] DiffuseBoundary operator()(Microfacets const& m, float eta, float depth) const {
-        Place const e = place(((eta - 1.0f) / (eta + 1.0f) - kLeast) / kStep, kEtas);
+        NodePlace const e{((eta - 1.0f) / (eta + 1.0f) - kLeast) / kStep, kEtas};
         if (m.smooth()) {
-            Place const d = place(std::log2(1.0f + depth * kDepthScale) * kPerOctave, kDepths);
+            NodePlace const d{std::log2(1.0f + depth * kDepthScale) * kPerOctave, kDepths};
             auto const at_depth = [&](std::size_t i) {
                 return mix(d.t, smooth_[e.i + i][d.i], smooth_[e.i + i][d.i + 1]);
             };
             return mix(e.t, at_depth(0), at_depth(1));
         }
         auto const& table = rough_[static_cast<std::size_t>(m.kind)];
-        Place const a = place(alpha_of(m) * (kAlphas - 1), kAlphas);
+        NodePlace const a{alpha_of(m) * (kAlphas - 1), kAlphas};
         DiffuseBoundary const r = mix(a.t, mix(e.t, table[a.i][e.i], table[a.i][e.i + 1]),
                                       mix(e.t, table[a.i + 1][e.i], table[a.i + 1][e.i + 1]));
         if (depth == 0.0f) return r;

@@ -39,5 +39,5 @@ struct LayerAlbedos {
 
 }  // namespace nephroid
 
-/// tools/layer_albedos's output, put here by the build (cmake/layer_albedos.cmake).
+/// tools/layer_albedos's output, put here by the build (cmake/built_table.cmake).
 extern nephroid::LayerAlbedos const nephroid_layer_albedos;

@@ -2,8 +2,7 @@
 #include "model/microfacet_albedo.h"
 
 #include "microfacet_albedo_format.h"
-
-#include <algorithm>
+#include "node_place.h"
 
 extern "C" float const nephroid_microfacet_table[];
 
@@ -13,16 +12,6 @@ namespace {
 
 namespace table = albedo_table;
 
-/// The two nodes about a position, and the second one's share.
-struct Between {
-    int low;
-    float share;
-};
-Between between(float node, int n) {
-    float const x = clamp(node, 0.0f, static_cast<float>(n - 1));
-    int const low = std::min(static_cast<int>(x), n - 2);
-    return {low, x - static_cast<float>(low)};
-}
 float between(float const* at, int step, float share) { return lerp(share, at[0], at[step]); }
 
 /// Where a dielectric stands: its first row, and the shares of the next alpha and of the next index.
@@ -39,12 +28,12 @@ float inside_table(float eta) {
 Place place(Distribution d, float alpha, float eta) {
     using namespace table;
     bool const inside = eta < 1.0f;
-    auto const a = between(alpha_to_node(alpha, kGlassAlphas), kGlassAlphas);
-    auto const n = between(index_to_node(inside_table(eta)), kIndices / 2);
-    int const node = n.low + (inside ? 0 : kIndices / 2);
+    NodePlace const a{alpha_to_node(alpha, kGlassAlphas), kGlassAlphas};
+    NodePlace const n{index_to_node(inside_table(eta)), kIndices / 2};
+    int const node = static_cast<int>(n.i) + (inside ? 0 : kIndices / 2);
     auto const s2 = [](float index) { return sqr((index - 1.0f) / (index + 1.0f)); };
     float const low = s2(node_to_index(node)), high = s2(node_to_index(node + 1));
-    return {(static_cast<int>(d) * kGlassAlphas + a.low) * kIndices + node, a.share, n.share,
+    return {(static_cast<int>(d) * kGlassAlphas + static_cast<int>(a.i)) * kIndices + node, a.t, n.t,
             clamp((s2(inside_table(eta)) - low) / (high - low), 0.0f, 1.0f)};
 }
 
@@ -57,12 +46,12 @@ float glass(Distribution d, float mu, float alpha, float eta, int part) {
     float const* t =
         nephroid_microfacet_table + kSingle + static_cast<std::size_t>(part) * kGlass + row * kGlassMus;
     // mu by the nodes of this index, which lie alike about the critical angle in both neighbours.
-    auto const m = between(mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta)), kGlassMus);
+    NodePlace const m{mu_to_node(clamp(mu, 0.0f, 1.0f), inside_table(eta)), kGlassMus};
     // Between two indices what is reflected straight on grows as s^2, s = (eta - 1) / (eta + 1), where even shares of the nodes
     // would give a twelfth too much; towards grazing light the nodes' own shares are nearer.
     float const n = lerp(sqr(sqr(clamp(mu, 0.0f, 1.0f))), at.index, at.square);
     auto const of_alpha = [&](float const* p) {
-        return lerp(n, between(p + m.low, 1, m.share), between(p + kGlassMus + m.low, 1, m.share));
+        return lerp(n, between(p + m.i, 1, m.t), between(p + kGlassMus + m.i, 1, m.t));
     };
     return lerp(a, of_alpha(t), of_alpha(t + kIndices * kGlassMus));
 }
@@ -71,17 +60,19 @@ float glass(Distribution d, float mu, float alpha, float eta, int part) {
 
 float microfacet_albedo(Distribution d, float mu, float alpha) {
     using namespace table;
-    auto const a = between(alpha_to_node(alpha, kAlphas), kAlphas);
-    auto const m = between(std::sqrt(clamp(mu, 0.0f, 1.0f)) * (kMus - 1), kMus);
-    float const* t = nephroid_microfacet_table + (static_cast<int>(d) * kAlphas + a.low) * kMus + m.low;
-    return lerp(a.share, between(t, 1, m.share), between(t + kMus, 1, m.share));
+    NodePlace const a{alpha_to_node(alpha, kAlphas), kAlphas};
+    NodePlace const m{std::sqrt(clamp(mu, 0.0f, 1.0f)) * (kMus - 1), kMus};
+    float const* t =
+        nephroid_microfacet_table + (static_cast<int>(d) * kAlphas + static_cast<int>(a.i)) * kMus + m.i;
+    return lerp(a.t, between(t, 1, m.t), between(t + kMus, 1, m.t));
 }
 
 float microfacet_albedo_average(Distribution d, float alpha) {
     using namespace table;
-    auto const a = between(alpha_to_node(alpha, kAlphas), kAlphas);
-    return between(nephroid_microfacet_table + kFirstAverage + static_cast<int>(d) * kAlphas + a.low, 1,
-                   a.share);
+    NodePlace const a{alpha_to_node(alpha, kAlphas), kAlphas};
+    return between(
+        nephroid_microfacet_table + kFirstAverage + static_cast<int>(d) * kAlphas + static_cast<int>(a.i), 1,
+        a.t);
 }
 
 float dielectric_reflection_albedo(Distribution d, float mu, float alpha, float eta) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-// tools/uplift_table's output, put here by the build (cmake/uplift.cmake).
+// tools/uplift_table's output, put here by the build (cmake/built_table.cmake).
 extern "C" {
 extern float const nephroid_uplift_table[];
 }

@@ -168,6 +168,17 @@ TEST_CASE("the same body twice, overlapping, is one; equal indices make no bound
     for (Integrator const& i : deep()) check_mean(w, settings(i), 64, expected.t);
 }
 
+TEST_CASE("a body with holes is noted") {
+    for (bool const holes : {false, true}) {
+        Scene s;
+        slab(s, -2, 0, body(s, 1.5f, 1, 0.1f));
+        if (holes) s.world().objects[0].alpha = s.add(Texture{ConstantFloatTexture{0.5f}, {}});
+        look_down(s);
+        World const w = compile(std::move(s));
+        CHECK(w.scene().notes.size() == (holes ? 1 : 0));
+    }
+}
+
 TEST_CASE("a camera inside knows what it is in") {
     for (float const from : {-0.5f, -1.7f}) {
         Scene s;
