@@ -2,6 +2,7 @@
 #include "model/energy_compensation.h"
 
 #include "model/microfacet_albedo.h"
+#include "model/schlick.h"
 
 namespace nephroid {
 
@@ -11,9 +12,22 @@ constexpr float kLeast = 1e-6f;  // of average losses: below it there is nothing
 
 float isotropic_alpha(Microfacets const& m) { return std::sqrt(m.ax * m.ay); }
 
-float lost(Microfacets const& m, Vec3 w) {
-    return max(0.0f, 1.0f - microfacet_albedo(m.kind, abs_cos_theta(w), isotropic_alpha(m)));
+/// Has a table of its own for roughnesses that differ along x and y.
+bool is_anisotropic_ggx(Microfacets const& m) {
+    return m.kind == Distribution::TrowbridgeReitz && m.ax != m.ay;
 }
+/// Of perfect mirrors: E, what one encounter reflects of light from w.
+float reflected(Microfacets const& m, Vec3 w) {
+    if (!is_anisotropic_ggx(m)) return microfacet_albedo(m.kind, abs_cos_theta(w), isotropic_alpha(m));
+    w.z = abs_cos_theta(w);
+    if (m.ax > m.ay) return schlick_albedo(m, w).one;
+    return schlick_albedo(Microfacets{m.ay, m.ax, m.kind}, {w.y, w.x, w.z}).one;
+}
+float reflected_average(Microfacets const& m) {
+    if (!is_anisotropic_ggx(m)) return microfacet_albedo_average(m.kind, isotropic_alpha(m));
+    return schlick_mean(Microfacets{max(m.ax, m.ay), min(m.ax, m.ay), m.kind}).one;
+}
+float lost(Microfacets const& m, Vec3 w) { return max(0.0f, 1.0f - reflected(m, w)); }
 /// eta = n on the other side / n on the side of w.
 float lost(Microfacets const& m, float eta, Vec3 w) {
     float const alpha = isotropic_alpha(m), mu = abs_cos_theta(w);
@@ -27,7 +41,7 @@ float average_fresnel(float eta) { return (eta - 1.0f) / (4.08567f + 1.00071f * 
 }  // namespace
 
 ReflectionCompensation reflection_compensation(Microfacets const& m, Vec3 wo) {
-    return {lost(m, wo), max(kLeast, 1.0f - microfacet_albedo_average(m.kind, isotropic_alpha(m)))};
+    return {lost(m, wo), max(kLeast, 1.0f - reflected_average(m))};
 }
 
 float evaluate(ReflectionCompensation const& c, Microfacets const& m, Vec3 wi) {
@@ -35,8 +49,7 @@ float evaluate(ReflectionCompensation const& c, Microfacets const& m, Vec3 wi) {
 }
 
 Spectrum compensation_tint(Spectrum f, Microfacets const& m) {
-    float const e = microfacet_albedo_average(m.kind, isotropic_alpha(m));
-    return f * f * e / (Spectrum(1.0f) - f * (1.0f - e));
+    return multiscatter_fresnel(f, reflected_average(m));
 }
 
 DielectricCompensation dielectric_compensation(Microfacets const& m, float eta, Vec3 wo) {

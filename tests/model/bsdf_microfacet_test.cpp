@@ -157,19 +157,24 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
                         Vec3 const wo = direction(std::acos(static_cast<double>(mu)), 0.5);
                         Parts const p = albedo_by_lattice(m, wo, boundary.eta);
                         double const single = p.reflected + p.transmitted;
-                        // The lobe depends on wi's cosine alone: 2 pi integral f mu dmu, in sqrt(mu).
+                        // 2 pi integral f mu dmu, in sqrt(mu), and over a quarter of the azimuths, which the lobe of
+                        // anisotropic facets depends on.
                         double lobe = 0;
-                        int const n = 300;
-                        for (int i = 0; i < n; ++i) {
-                            float const t = (static_cast<float>(i) + 0.5f) / static_cast<float>(n), c = t * t;
-                            Vec3 const wi{std::sqrt(1 - c * c), 0, c};
+                        int const n = 300, azimuths = anisotropic ? 8 : 1;
+                        for (int i = 0; i < n * azimuths; ++i) {
+                            float const t = (static_cast<float>(i % n) + 0.5f) / static_cast<float>(n),
+                                        c = t * t;
+                            float const s = std::sqrt(1 - c * c);
+                            float const phi =
+                                (static_cast<float>(i / n) + 0.5f) / static_cast<float>(azimuths) * kPiOver2;
+                            Vec3 const wi{s * std::cos(phi), s * std::sin(phi), c};
                             float const f = boundary.eta == 0
                                                 ? evaluate(reflection_compensation(m, wo), m, wi)
                                                 : evaluate(dielectric_compensation(m, boundary.eta, wo), m,
                                                            wo, wi, Mode::Importance) +
                                                       evaluate(dielectric_compensation(m, boundary.eta, wo),
                                                                m, wo, -wi, Mode::Importance);
-                            lobe += static_cast<double>(f * c * 2 * t) * 2 * kPiD / n;
+                            lobe += static_cast<double>(f * c * 2 * t) * 2 * kPiD / (n * azimuths);
                         }
                         without = std::max(without, std::abs(single - 1));
                         double const off = std::abs(single + lobe - 1);
@@ -184,8 +189,11 @@ TEST_CASE("white furnace: what rough boundaries lose, without compensation and w
                         std::string(anisotropic ? "anisotropic" : "isotropic"), ": greatest error ", without,
                         " without; with compensation ", with, " (", where, "), mean ", average);
                 if (!anisotropic) CHECK(with < without);
-                CHECK(with <= (anisotropic ? 0.15 : 0.03));
-                CHECK(average <= (anisotropic ? 0.09 : 0.005));
+                // Where ax and ay differ, only the mirrors of Trowbridge and Reitz have a table.
+                bool const exact =
+                    !anisotropic || (facet.kind == Distribution::TrowbridgeReitz && boundary.eta == 0);
+                CHECK(with <= (exact ? 0.03 : 0.15));
+                CHECK(average <= (exact ? 0.005 : 0.09));
             }
 }
 

@@ -1,7 +1,7 @@
 // Light that one encounter with microfacets shadows goes on to other facets, and leaves as if from a diffuse surface: Kulla & Conty
 // 2017, "Revisiting Physically Based Shading at Imageworks". The lobe is reciprocal, and with the single encounters it makes a
-// surface that absorbs nothing white. The albedos come from tables (model/microfacet_albedo.h), of the isotropic roughness
-// sqrt(ax ay) where ax and ay differ.
+// surface that absorbs nothing white. The albedos come from tables: where ax and ay differ those of the isotropic roughness
+// sqrt(ax ay) stand in, but for Trowbridge and Reitz's mirrors, which have a table of their own.
 #pragma once
 
 #include "model/adjoint.h"
