@@ -93,8 +93,9 @@ TextureId Textures::input(Definition const& d, Params& p, std::string_view name,
 TextureId Textures::make(Definition& d, SpectrumRole role) {
     auto& made = d.made[d.spectrum ? static_cast<std::size_t>(role) : 0];
     if (made.valid()) return made;
-    constexpr int kMaxDepth = 1000;  // making and evaluating a texture recurses
-    if (++depth_ > kMaxDepth) context_.fail(d.where, "textures are nested more than 1000 deep");
+    constexpr int kMaxDepth =
+        512;  // making and evaluating a texture recurses; validate() would refuse it as well
+    if (++depth_ > kMaxDepth) context_.fail(d.where, "textures are nested more than 512 deep");
     bool const first = !d.made[0].valid() && !d.made[1].valid() && !d.made[2].valid();
     Params p(context_, "Texture \"" + shown(d.name) + "\" \"" + shown(d.kind) + "\"", d.where, d.params,
              d.inherited);

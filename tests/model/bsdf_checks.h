@@ -491,7 +491,8 @@ inline void check_energy(Bsdf const& b, BsdfChecks const& c = {}) {
         INFO("wo.z = ", wo.z, ": quadrature ", a.quadrature, ", delta ", a.delta, ", sampled ",
              a.sampled.mean());
         CHECK(a.total() <= 1 + 1e-4);
-        if (a.quadrature > 1e-3) {
+        // With the few samples that sanitizers get, neither the cells nor the mean are fine enough to be compared.
+        if (a.quadrature > 1e-3 && kSanitizerShare == 1) {
             // What the quadrature is off (at edges and in far tails) is not held against the samples.
             double const off =
                 std::max(0.0, std::abs(a.sampled.mean() - a.quadrature) - 1.5e-3 * a.quadrature);

@@ -27,7 +27,9 @@ Wild wild(Scene& s) {
         TextureId const minus_infinity = add(scaled);
         MixTexture mixed;
         mixed.tex1 = plus_infinity, mixed.tex2 = minus_infinity, mixed.amount = half;
-        (spectral ? w.spectra : w.floats) = {plus_infinity, minus_infinity, add(mixed)};
+        TextureId const no_number = add(mixed);
+        std::vector<TextureId>& list = spectral ? w.spectra : w.floats;
+        list = {plus_infinity, minus_infinity, no_number};
     }
     return w;
 }

@@ -379,7 +379,7 @@ TEST_CASE("textures that cannot be") {
     for (int i = 1; i < 5000; ++i)
         chain += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\" \"t" +
                  std::to_string(i - 1) + "\"\n";
-    CHECK(contains(error_in_world(chain), "nested more than 1000 deep"));
+    CHECK(contains(error_in_world(chain), "nested more than 512 deep"));
 }
 
 TEST_CASE("unused textures are checked, but not kept") {
