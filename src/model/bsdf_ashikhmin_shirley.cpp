@@ -3,6 +3,7 @@
 //
 // Energy: the lobe's f is F p(k2) / max(cos1, cos2), p being its own density (eq. 4), so its albedo is at most the mean of F.
 // The base reflects R_d (1 - R_s) (1 - (1 - cos/2)^5) of the light from wo. Together they stay below 1 (measured in the tests).
+#include "drawn.h"
 #include "make_bsdf.h"
 #include "sampling/warp.h"
 
@@ -110,20 +111,15 @@ std::optional<BsdfSample> sample(AshikhminShirleyBsdf const& b, Vec3 wo, float u
     Vec3 const up{wo.x, wo.y, abs_cos_theta(wo)};
     Vec3 wi;
     if (uc < base_chance(b, up.z)) {
-        wi = how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u)
-                                               : square_to_uniform_hemisphere(u);
+        wi = square_to_hemisphere(u, how);
     } else {
         Vec3 const h = sample_half_vector(b, u);
         wi = normalize(2.0f * dot(up, h) * h - up);
     }
     if (!(wi.z > 0.0f)) return result;  // the lobe's part below the surface is lost
     if (wo.z < 0.0f) wi.z = -wi.z;
-    float const density = pdf(b, wo, wi, how);
-    if (!(density > 0.0f && std::isfinite(density))) return result;
-    BsdfSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = density;
-    s.f = evaluate(b, wo, wi, mode);
+    complete(result, b, wo, wi, mode, how);
+    if (result && !std::isfinite(result->pdf)) result.reset();
     return result;
 }
 

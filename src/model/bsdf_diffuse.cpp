@@ -1,6 +1,6 @@
 // Lambert's law (PBRT 4th ed., 9.2).
+#include "drawn.h"
 #include "make_bsdf.h"
-#include "sampling/warp.h"
 
 namespace nephroid {
 
@@ -15,15 +15,9 @@ std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, M
     // One object, built where the caller wants it: a copy right after it was written costs more than the rest.
     std::optional<BsdfSample> result;
     if (wo.z == 0.0f) return result;
-    Vec3 wi =
-        how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u) : square_to_uniform_hemisphere(u);
+    Vec3 wi = square_to_hemisphere(u, how);
     if (wo.z < 0.0f) wi.z = -wi.z;
-    float const density = pdf(b, wo, wi, how);
-    if (!(density > 0.0f)) return result;
-    BsdfSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = density;
-    s.f = evaluate(b, wo, wi, mode);
+    complete(result, b, wo, wi, mode, how);
     return result;
 }
 

@@ -2,6 +2,7 @@
 // The normal wm is computed from the pair of directions in one order, whichever is wo: reciprocity then holds to the last bits
 // even for lobes that are narrower than the rounding of wm would allow.
 // With energy compensation a cosine lobe joins them, chosen as often as it is bright: see model/energy_compensation.h.
+#include "drawn.h"
 #include "make_bsdf.h"
 #include "model/energy_compensation.h"
 #include "model/fresnel.h"
@@ -104,12 +105,7 @@ std::optional<BsdfSample> sample(RoughConductorBsdf const& b, Vec3 wo, float uc,
     } else {
         wi = reflect(wo, sample_microfacet(b.facets, wo, u));
     }
-    float const density = pdf(b, wo, wi, how);  // 0 below the horizon
-    if (!(density > 0.0f)) return result;
-    BsdfSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = density;
-    s.f = evaluate(b, wo, wi, mode);
+    complete(result, b, wo, wi, mode, how);  // nothing below the horizon
     return result;
 }
 

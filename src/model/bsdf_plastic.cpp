@@ -3,6 +3,7 @@
 // turns between the two is a geometric series, and the value is exact:
 // f = boundary + t(wo) t(wi) / (eta^2 pi) * sum_n rho^n K^(n-1).
 #include "diffuse_boundary.h"
+#include "drawn.h"
 #include "layer_boundary.h"
 #include "make_bsdf.h"
 #include "sampling/warp.h"
@@ -91,16 +92,10 @@ std::optional<BsdfSample> sample(PlasticBsdf const& b, Vec3 wo, float uc, Vec2 u
             return result;
         }
     } else {
-        wi = how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u)
-                                               : square_to_uniform_hemisphere(u);
+        wi = square_to_hemisphere(u, how);
         if (below) wi = -wi;
     }
-    float const density = pdf(b, wo, wi, how);
-    if (!(density > 0.0f)) return result;
-    BsdfSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = density;
-    s.f = evaluate(b, wo, wi, mode);
+    complete(result, b, wo, wi, mode, how);
     return result;
 }
 

@@ -1,5 +1,6 @@
 // Lambert's law on both sides of a thin sheet, paper or a leaf (PBRT 4th ed., 9.2): f = R / pi where wo and wi lie together,
 // T / pi where they do not. The same from either side, and for radiance and importance: nothing refracts.
+#include "drawn.h"
 #include "make_bsdf.h"
 #include "sampling/warp.h"
 
@@ -38,16 +39,10 @@ std::optional<BsdfSample> sample(DiffuseTransmissionBsdf const& b, Vec3 wo, floa
     std::optional<BsdfSample> result;
     if (wo.z == 0.0f) return result;
     bool const through = !(uc < reflection_chance(b));
-    Vec3 wi =
-        how == HemisphereSampling::Cosine ? square_to_cosine_hemisphere(u) : square_to_uniform_hemisphere(u);
+    Vec3 wi = square_to_hemisphere(u, how);
     if ((wo.z < 0.0f) != through) wi.z = -wi.z;
-    float const density = pdf(b, wo, wi, how);
-    if (!(density > 0.0f)) return result;
-    BsdfSample& s = result.emplace();
-    s.wi = wi;
-    s.pdf = density;
-    s.f = evaluate(b, wo, wi, mode);
-    s.transmitted = through;
+    complete(result, b, wo, wi, mode, how);
+    if (result) result->transmitted = through;
     return result;
 }
 
