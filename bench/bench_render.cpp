@@ -70,7 +70,7 @@ void sweep(RenderJob const& job, int passes, Film& film, RayStats& stats) {
     auto const [x0, x1, y0, y1] = job.crop();
     for (int y = y0; y < y1; y += kTile)
         for (int x = x0; x < x1; x += kTile)
-            render_tile(job, {x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)},
+            render_tile(job, PassWork{}, {x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)},
                         {0, static_cast<std::uint64_t>(passes)}, film, stats);
 }
 

@@ -9,7 +9,9 @@ namespace nephroid::cli {
 std::string name_of(Integrator const& i) {
     return match(
         i, [](PathIntegrator const&) { return "path"; }, [](WhittedIntegrator const&) { return "whitted"; },
-        [](DirectIntegrator const&) { return "direct"; });
+        [](DirectIntegrator const&) { return "direct"; },
+        [](PhotonMapIntegrator const&) { return "photonmap"; }, [](SppmIntegrator const&) { return "sppm"; },
+        [](LightPathIntegrator const&) { return "lightpath"; });
 }
 std::string name_of(Sampler const& s) {
     return match(

@@ -171,8 +171,25 @@ void set_integrator(Settings& settings, std::string const& name) {
         settings.integrator = WhittedIntegrator{};
     } else if (name == "direct" || name == "directlighting") {
         settings.integrator = DirectIntegrator{};
+    } else if (name == "photonmap") {
+        if (!std::holds_alternative<PhotonMapIntegrator>(settings.integrator)) {
+            settings.integrator = PhotonMapIntegrator{};
+            settings.color = ColorMode::Rgb;
+            return;  // its depths have other meanings
+        }
+    } else if (name == "sppm") {
+        if (!std::holds_alternative<SppmIntegrator>(settings.integrator)) {
+            SppmIntegrator i;
+            i.shooting.max_depth = depth;
+            settings.integrator = i;
+        }
+    } else if (name == "lightpath") {
+        if (!std::holds_alternative<LightPathIntegrator>(settings.integrator))
+            settings.integrator = LightPathIntegrator{};
     } else {
-        refuse(fmt::format("--integrator {}: unknown; choose one of path, whitted, direct", name));
+        refuse(fmt::format(
+            "--integrator {}: unknown; choose one of path, whitted, direct, photonmap, sppm, lightpath",
+            name));
     }
     match(settings.integrator, [&](auto& i) { i.max_depth = depth; });
 }

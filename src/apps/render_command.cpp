@@ -117,7 +117,7 @@ PassRange passes_of(RenderOptions const& o, Settings const& s) {
     }
     // With a time limit alone, as many as fit.
     if (!o.time.empty() && !o.spp) return {0, std::uint64_t{1} << 62};
-    return {0, static_cast<std::uint64_t>(s.spp)};
+    return {0, static_cast<std::uint64_t>(wanted_passes(s))};
 }
 
 std::map<std::string, std::string> metadata(RenderJob const& job, Film const& film,

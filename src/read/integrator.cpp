@@ -96,6 +96,71 @@ PathIntegrator random_walk(Params& p) {
     return i;
 }
 
+int count(Params& p, char const* name, int otherwise, int least) {
+    int const n = p.integer(name, otherwise);
+    if (n < least && n != otherwise)
+        p.fail(std::string("\"") + name + "\" must be at least " + std::to_string(least));
+    return n;
+}
+float radius(Params& p, char const* name) {
+    float const r = p.number(name, 0);
+    if (!(r >= 0)) p.fail(std::string("\"") + name + "\" must be above 0, or 0 for one that suits the scene");
+    return r;
+}
+
+/// What both photon integrators read; names of pbrt-v2's photonmap where it has one.
+void photon_parameters(Params& p, PhotonShooting& shooting, PhotonEstimates& estimates, float& alpha,
+                       PhotonView& view) {
+    constexpr std::array kKernels{Kernel::Box, Kernel::Cone, Kernel::Epanechnikov, Kernel::Gaussian};
+    constexpr std::array kViews{PhotonView::None, PhotonView::Global, PhotonView::Caustic, PhotonView::Both,
+                                PhotonView::Radiance};
+    shooting.caustic_paths = count(p, "causticphotons", shooting.caustic_paths, 0);
+    shooting.max_depth = count(p, "maxphotondepth", shooting.max_depth, 0);
+    shooting.aim = p.boolean("aim", shooting.aim);
+    estimates.nused = count(p, "nused", estimates.nused, 0);
+    estimates.caustic_radius = radius(p, "causticradius");
+    estimates.kernel = kKernels[p.choice("kernel", {"box", "cone", "epanechnikov", "gaussian"},
+                                         static_cast<std::size_t>(estimates.kernel))];
+    estimates.edge_correction = p.boolean("edgecorrection", estimates.edge_correction);
+    alpha = p.number("alpha", alpha);
+    if (!(alpha > 0 && alpha <= 1)) p.fail("\"alpha\" must be above 0 and at most 1");
+    view = kViews[p.choice("visualize", {"none", "global", "caustic", "both", "radiance"}, 0)];
+}
+
+/// pbrt-v2's, where causticphotons and indirectphotons were wanted in the maps: here they are emitted.
+PhotonMapIntegrator photon_map(Params& p) {
+    PhotonMapIntegrator i;
+    i.max_depth = count(p, "maxspeculardepth", i.max_depth, 0);
+    i.shooting.global_paths = count(p, "indirectphotons", i.shooting.global_paths, 0);
+    i.estimates.radius = p.find("radius") ? radius(p, "radius") : radius(p, "maxdist");
+    photon_parameters(p, i.shooting, i.estimates, i.alpha, i.visualize);
+    i.final_gather = p.boolean("finalgather", i.final_gather);
+    i.gather_samples = count(p, "finalgathersamples", i.gather_samples, 1);
+    i.passes = count(p, "passes", i.passes, 1);
+    i.lights = light_sampling(p);
+    return i;
+}
+
+/// pbrt-v4's. Its radius is 1 unless it is given; here one that suits the scene.
+SppmIntegrator sppm(Params& p) {
+    SppmIntegrator i;
+    i.max_depth = max_depth(p);
+    i.shooting.max_depth = i.max_depth;
+    i.shooting.global_paths = count(p, "photonsperiteration", i.shooting.global_paths, 0);
+    i.estimates.radius = radius(p, "radius");
+    photon_parameters(p, i.shooting, i.estimates, i.alpha, i.visualize);
+    i.lights = light_sampling(p);
+    return i;
+}
+
+LightPathIntegrator light_path(Params& p) {
+    LightPathIntegrator i;
+    i.max_depth = max_depth(p);
+    i.paths = count(p, "lightpaths", i.paths, 1);
+    i.lights = light_sampling(p);
+    return i;
+}
+
 }  // namespace
 
 Integrator make_integrator(std::string const& type, Params& p) {
@@ -105,12 +170,15 @@ Integrator make_integrator(std::string const& type, Params& p) {
     if (type == "randomwalk") return random_walk(p);
     if (type == "whitted") return WhittedIntegrator{max_depth(p), light_sampling(p)};
     if (type == "direct" || type == "directlighting") return direct(p);
-    constexpr std::array<std::string_view, 9> kKnown{
-        "bdpt",     "mlt",           "sppm",     "lightpath", "ao", "ambientocclusion",
-        "function", "simplevolpath", "photonmap"};
+    if (type == "photonmap") return photon_map(p);
+    if (type == "sppm") return sppm(p);
+    if (type == "lightpath") return light_path(p);
+    constexpr std::array<std::string_view, 6> kKnown{"bdpt",     "mlt",          "ao", "ambientocclusion",
+                                                     "function", "simplevolpath"};
     bool const known = std::find(kKnown.begin(), kKnown.end(), type) != kKnown.end();
     p.note((known ? "is not available yet: \"path\" stands in" : "is unknown: \"path\" stands in") +
-           did_you_mean(type, {"path", "volpath", "simplepath", "randomwalk", "whitted", "direct"}));
+           did_you_mean(type, {"path", "volpath", "simplepath", "randomwalk", "whitted", "direct",
+                               "photonmap", "sppm", "lightpath"}));
     p.ignore_all();
     PathIntegrator i;
     i.max_depth = max_depth(p);

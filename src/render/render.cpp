@@ -127,6 +127,7 @@ class Loop {
 
     /// Batches of about a quarter of a second: long enough to pay for starting threads, short enough to stop between them.
     std::uint64_t next_size(std::uint64_t size, double seconds) const {
+        if (job_.prepares()) return 1;  // each pass has work of its own
         double const target =
             control_.seconds ? std::min(0.25, std::max(0.02, *control_.seconds / 20)) : 0.25;
         if (seconds > 2 * target) return std::max<std::uint64_t>(1, size / 2);
@@ -136,6 +137,24 @@ class Loop {
 
     void go_back() {
         for (std::size_t i = 0; i < tiles_.size(); ++i) undo_.restore(film_, tiles_[i], i);
+    }
+
+    /// Photons before pixels. False when it was stopped.
+    bool prepare(PassRange batch) {
+        if (!job_.prepares()) return true;
+        PrepareControl control;
+        control.stop = control_.stop;
+        control.on_progress = [this](double share) {
+            prepared_ = share;
+            report(false);
+        };
+        prepared_ = 0;
+        auto work = prepare_pass(job_, batch.begin, control);
+        if (!work) return false;
+        prepared_ = 1;
+        work_ = std::move(*work);
+        result_.photons.add(work_.report);
+        return true;
     }
 
     void render_tiles(PassRange batch, std::atomic<bool>& abandoned, std::atomic<std::uint64_t>& dropped) {
@@ -148,7 +167,7 @@ class Loop {
                     abandoned = true;
                     return;
                 }
-                dropped.fetch_add(render_tile(job_, tile, {pass, pass + 1}, film_, stats_[i]),
+                dropped.fetch_add(render_tile(job_, work_, tile, {pass, pass + 1}, film_, stats_[i]),
                                   std::memory_order_relaxed);
             }
             tiles_done_.fetch_add(1, std::memory_order_relaxed);
@@ -164,6 +183,7 @@ class Loop {
         std::uint64_t const rejected = rejected_rays();
         undo_.begin(film_);
         try {
+            if (!prepare(batch)) return false;
             render_tiles(batch, abandoned, dropped);
         } catch (...) {
             // No pass throws, but memory may run out: the film must be what it says it is.
@@ -201,9 +221,11 @@ class Loop {
         RenderProgress p;
         p.passes_done = result_.passes;
         p.passes_wanted = wanted_;
-        double const in_flight = static_cast<double>(batch_.end - batch_.begin) *
-                                 static_cast<double>(tiles_done_.load()) /
-                                 static_cast<double>(std::max<std::size_t>(1, tiles_.size()));
+        double const tiles = static_cast<double>(tiles_done_.load()) /
+                             static_cast<double>(std::max<std::size_t>(1, tiles_.size()));
+        // Of a pass that is prepared, that is a third of the work, about.
+        double const share = job_.prepares() ? (prepared_ + 2 * tiles) / 3 : tiles;
+        double const in_flight = static_cast<double>(batch_.end - batch_.begin) * share;
         double const done = static_cast<double>(result_.passes) + in_flight;
         p.fraction = wanted_ > 0 ? done / static_cast<double>(wanted_) : 1.0;
         if (control_.seconds)
@@ -216,6 +238,7 @@ class Loop {
     RenderResult finish(RenderEnd end) {
         result_.end = end;
         for (RayStats const& s : stats_) result_.rays.add(s);
+        result_.rays.add(result_.photons.rays);
         result_.seconds = since(start_);
         return result_;
     }
@@ -232,6 +255,8 @@ class Loop {
     Clock::time_point last_report_;
     std::mutex report_mutex_;
     std::atomic<std::size_t> tiles_done_{0};
+    PassWork work_;  // of the batch, where passes are prepared
+    std::atomic<double> prepared_{0};
     PassRange batch_{0, 0};
     std::uint64_t wanted_ = 0;
 };

@@ -148,7 +148,7 @@ std::string hash(Scene const& scene) {
 std::string hash(Settings const& settings) {
     Settings shaping = settings;
     // How many passes, and how the sums are written down, shape no pass.
-    shaping.spp = 0;
+    shaping.spp = samples_per_pass(settings);
     shaping.film.filename.clear();
     shaping.film.half_float = false;
     Digest d;

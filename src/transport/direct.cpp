@@ -5,28 +5,30 @@
 
 namespace nephroid {
 
-Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
+SeenLight radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
     bool const sample_lights = p.strategy != DirectStrategy::Bsdf;
     bool const mis = p.strategy == DirectStrategy::Mis;
     EmissionWeight const weight = mis             ? EmissionWeight::Mis
                                   : sample_lights ? EmissionWeight::SpecularOnly
                                                   : EmissionWeight::All;
-    Spectrum radiance;
+    SeenLight seen;
     Walk walk = Walk::from_camera(c, ray);
     bool scattered = false;
     Vertex v;
     for (;;) {
-        if (!advance(c, walk, weight, v, radiance) || scattered) break;
+        if (!advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()]) || scattered) break;
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
         if (!v.is.delta) {
-            if (sample_lights) radiance += walk.beta * sample_direct(c, walk, v, mis);
+            if (sample_lights)
+                seen[walk.path_class.ends_after(v.is.near_specular)] +=
+                    walk.beta * sample_direct(c, walk, v, mis);
             scattered = true;  // one more segment, to meet emission by scattering
         }
         if (!scatter(c, walk, v)) break;
     }
-    return radiance;
+    return seen;
 }
 
 }  // namespace nephroid

@@ -1,5 +1,8 @@
 #include "transport/render_pass.h"
 
+#include "light_path_image.h"
+#include "photon_maps.h"
+#include "photon_plan.h"
 #include "scene/match.h"
 #include "walk.h"
 
@@ -34,16 +37,14 @@ PreparedCamera camera_of(World const& world, Settings const& settings) {
 }
 
 HemisphereSampling hemisphere_of(Integrator const& integrator) {
-    return match(
-        integrator, [](WhittedIntegrator const&) { return HemisphereSampling::Cosine; },
-        [](auto const& i) { return i.hemisphere; });
+    return match(integrator, [](auto const& i) {
+        if constexpr (requires { i.hemisphere; }) return i.hemisphere;
+        return HemisphereSampling::Cosine;
+    });
 }
 LightSampling lights_of(Integrator const& integrator) {
     return match(integrator, [](auto const& i) { return i.lights; });
 }
-
-/// Streams keep the numbers of different uses apart.
-constexpr std::uint64_t kCameraStream = 0;
 
 /// The sensor's value of one camera sample, linear sRGB.
 Vec3 sensor_value(RenderJob const& job, Spectrum radiance, Wavelengths const& lambda) {
@@ -73,6 +74,7 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
                     "the crop window holds no pixel of the picture; give x0,y0,x1,y1 inside the resolution");
     RayStats uncounted;
     if (world.encloses()) interiors_ = interiors_at(world, camera_.position(), uncounted);
+    plan_ = make_photon_plan(*this);
 }
 
 Film RenderJob::make_film() const {
@@ -80,51 +82,86 @@ Film RenderJob::make_film() const {
                 {world_->scene_hash(), hash(settings_), settings_.seed});
 }
 
-std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange passes, Film& film,
-                          RayStats& stats) {
+bool RenderJob::prepares() const {
+    return plan_ || std::holds_alternative<LightPathIntegrator>(settings_.integrator);
+}
+
+Wavelengths RenderJob::pass_wavelengths(std::uint64_t i) const {
+    if (settings_.color == ColorMode::Rgb) return Wavelengths::rgb();
+    PathSampler sampler(sequence_, stream::kWavelengths, 0, i);
+    return Wavelengths::spectral(sampler.next_1d());
+}
+
+namespace {
+
+/// One camera sample: the light seen, by class, as the sensor has it.
+bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y, std::uint64_t pass,
+                       std::uint64_t sample, NearestPhotons& nearest, Film& film, RayStats& stats) {
     Settings const& settings = job.settings();
     bool const wants_aovs = film.has_aovs();
+    // The pixel's own name, whatever the crop window or the resolution.
+    std::uint64_t const pixel =
+        static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
+    PathSampler sampler(job.sequence(), stream::kCamera, pixel, sample);
+    sampler.at(dimension::kFilm);
+    FilterSample const f = job.filter().sample(sampler.next_2d());
+    sampler.at(dimension::kLens);
+    Vec2 const lens = job.camera().has_lens() ? sampler.next_2d() : Vec2{0.5f, 0.5f};
+    sampler.at(dimension::kWavelength);
+    Wavelengths const lambda = job.prepares()                     ? job.pass_wavelengths(pass)
+                               : settings.color == ColorMode::Rgb ? Wavelengths::rgb()
+                                                                  : Wavelengths::spectral(sampler.next_1d());
+    CameraRay const camera =
+        job.camera().ray(Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
+    PathContext c{job,
+                  job.world(),
+                  lambda,
+                  sampler,
+                  stats,
+                  hemisphere_of(settings.integrator),
+                  lights_of(settings.integrator),
+                  work.photons.get(),
+                  &nearest};
+    AovSample aov;
+    SeenLight const seen = match(
+        settings.integrator, [](LightPathIntegrator const&) { return SeenLight{}; },
+        [&](auto const& integrator) {
+            return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
+        });
+    Vec3 const value = c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
+                                 : sensor_value(job, seen.total() * camera.weight, lambda);
+    if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
+    return film.add(x, y, value, f.weight);
+}
+
+}  // namespace
+
+std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
+                          Film& film, RayStats& stats) {
+    auto const samples = static_cast<std::uint64_t>(samples_per_pass(job.settings()));
     std::uint64_t dropped = 0;
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) {
-            // The pixel's own name, whatever the crop window or the resolution.
-            std::uint64_t const pixel = static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 |
-                                        static_cast<std::uint32_t>(x);
-            for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass) {
-                PathSampler sampler(job.sequence(), kCameraStream, pixel, pass);
-                sampler.at(dimension::kFilm);
-                FilterSample const f = job.filter().sample(sampler.next_2d());
-                sampler.at(dimension::kLens);
-                Vec2 const lens = job.camera().has_lens() ? sampler.next_2d() : Vec2{0.5f, 0.5f};
-                sampler.at(dimension::kWavelength);
-                Wavelengths const lambda = settings.color == ColorMode::Rgb
-                                               ? Wavelengths::rgb()
-                                               : Wavelengths::spectral(sampler.next_1d());
-                CameraRay const camera = job.camera().ray(
-                    Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
-                PathContext c{job,
-                              job.world(),
-                              lambda,
-                              sampler,
-                              stats,
-                              hemisphere_of(settings.integrator),
-                              lights_of(settings.integrator)};
-                AovSample aov;
-                Spectrum const radiance_seen = match(settings.integrator, [&](auto const& integrator) {
-                    return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
-                });
-                Vec3 const value = c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
-                                             : sensor_value(job, radiance_seen * camera.weight, lambda);
-                if (!film.add(x, y, value, f.weight)) ++dropped;
-                if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
+    if (work.light_paths) {
+        // The pass is one sample of every pixel: the sum of what was splatted there.
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                auto const drawn = work.light_paths->at(x, y);
+                if (!film.add(x, y, drawn[0] + drawn[1] + drawn[2] + drawn[3], 1)) ++dropped;
             }
-        }
+        return dropped;
+    }
+    NearestPhotons nearest;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass)
+                for (std::uint64_t k = pass * samples; k < (pass + 1) * samples; ++k)
+                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats)) ++dropped;
     return dropped;
 }
 
 void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats) {
     auto const crop = job.crop();
-    film.add_dropped(render_tile(job, {crop[0], crop[1], crop[2], crop[3]}, {i, i + 1}, film, stats));
+    auto const work = prepare_pass(job, i, {});
+    film.add_dropped(render_tile(job, *work, {crop[0], crop[1], crop[2], crop[3]}, {i, i + 1}, film, stats));
     film.finish_pass(i);
 }
 

@@ -23,13 +23,13 @@ constexpr int kMaxInterfaces = 4096;
 /// The pixel's cone cut by the surface's tangent plane: an ellipse, longer where the ray grazes it ("ray cones", Akenine-Moeller
 /// et al. 2021). The cone is as wide as the path is long, whatever it was reflected by. Fixed by the camera, not by the number of
 /// passes, which no pass knows: an eighth of a pixel, what pbrt-v4 comes down to at 64 samples. The passes average over the rest.
-TexturePoint texture_point(PathContext const& c, Walk const& walk, SurfaceHit const& hit) {
+TexturePoint texture_point(Walk const& walk, SurfaceHit const& hit) {
     TexturePoint at;
     at.p = hit.s.p;
     at.uv = hit.s.uv;
     at.n = hit.s.ng;
     constexpr float kShareOfPixel = 0.125f;
-    float const width = kShareOfPixel * c.job.camera().pixel_spread() * (walk.cone + hit.t);
+    float const width = kShareOfPixel * walk.spread * (walk.cone + hit.t);
     if (!(width > 0.0f)) return at;
     // Axes in the tangent plane, across the plane of incidence and in it.
     Vec3 const d = walk.ray.d;
@@ -103,6 +103,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
         bool const found = c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit);
         if (!walk.interiors.empty()) walk.beta *= transmittance(c, walk.interiors, found ? hit.t : kInfinity);
         if (!found) {
+            if (weight == EmissionWeight::None) return false;
             for (LightId const light : c.world.infinite_lights()) {
                 float const pdf =
                     walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
@@ -112,7 +113,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
             }
             return false;
         }
-        if (hit.emits) {
+        if (hit.emits && weight != EmissionWeight::None) {
             Spectrum const emitted = c.world.emitted(hit, -walk.ray.d, c.lambda);
             if (!emitted.is_black()) {
                 float const pdf =
@@ -128,7 +129,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
                 mix = c.sampler.next_1d_fine();
             }
             Assets const& assets = c.world.assets();
-            v.material = resolve_mix(assets, v.material, texture_point(c, walk, hit), mix);
+            v.material = resolve_mix(assets, v.material, texture_point(walk, hit), mix);
         }
         if (c.world.encloses() && v.material.valid() && is_hidden(c, walk, v)) {
             walk.interiors.cross({hit.material, v.material}, dot(walk.ray.d, hit.s.ng) < 0.0f);
@@ -153,7 +154,7 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     MaterialData const& data = assets.data(v.material);
     static constexpr TexturePoint kAnywhere;
     std::optional<TexturePoint> here;
-    if (data.textured) here = texture_point(c, walk, v.hit);
+    if (data.textured) here = texture_point(walk, v.hit);
     TexturePoint const& at = here ? *here : kAnywhere;
     if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
     if (data.encloses)
@@ -190,7 +191,9 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
 }
 
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
-    walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf);
+    Vec3 const wi = normalize(v.frame.from_local(s.wi));
+    walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf *
+                        shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng));
     if (s.keep_hero) keep_hero(walk);
     if (walk.beta.is_black()) return false;
     if (!walk.beta.is_finite()) {
@@ -202,7 +205,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
     if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
     walk.cone += v.hit.t;
-    Vec3 const wi = normalize(v.frame.from_local(s.wi));
+    walk.path_class.scatter(s.delta || v.is.near_specular);
     if (c.world.encloses()) walk.interiors = beyond(c, walk, v, wi);
     walk.ray = v.hit.spawn(wi);
     ++walk.vertex;
@@ -221,7 +224,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
         c.sampler.at(dimension::of(walk.vertex, dimension::kDirection));
         u = c.sampler.next_2d();
     }
-    auto const s = sample(v.bsdf, v.wo_local, lobe, u, Mode::Radiance, c.hemisphere);
+    auto const s = sample(v.bsdf, v.wo_local, lobe, u, walk.mode, c.hemisphere);
     return s && follow(c, walk, v, *s);
 }
 

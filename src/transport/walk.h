@@ -6,6 +6,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "light_class.h"
 #include "math/frame.h"
 #include "model/material.h"
 #include "sampling/path_sampler.h"
@@ -16,10 +17,18 @@
 
 namespace nephroid {
 
+/// Streams keep the numbers of different uses of a pass apart.
+namespace stream {
+inline constexpr std::uint64_t kCamera = 0, kGlobalPhotons = 1, kCausticPhotons = 2, kLightPaths = 3,
+                               kWavelengths = 4, kPilot = 5;
+}  // namespace stream
+
 /// Dimensions of the sampler: the camera's, then a stride for every vertex of the path, so that a vertex draws the same numbers
 /// whatever was drawn before it.
 namespace dimension {
 inline constexpr std::uint32_t kFilm = 0, kLens = 1, kWavelength = 2;
+// Of a light path instead: which light, where on it, whereto (and towards which caster).
+inline constexpr std::uint32_t kSource = 0, kSourcePoint = 1, kSourceDirection = 2, kCaster = 3;
 inline constexpr std::uint32_t kFirstVertex = 8, kPerVertex = 8;
 inline constexpr std::uint32_t kMix = 0, kLightChoice = 1, kLight = 2, kLobe = 3, kDirection = 4,
                                kRoulette = 5;
@@ -28,7 +37,10 @@ inline std::uint32_t of(std::uint32_t vertex, std::uint32_t which) {
 }
 }  // namespace dimension
 
-/// What a walk needs from outside; one per camera sample.
+struct PhotonMaps;
+class NearestPhotons;
+
+/// What a walk needs from outside; one per camera sample or light path.
 struct PathContext {
     RenderJob const& job;
     World const& world;
@@ -37,7 +49,9 @@ struct PathContext {
     RayStats& stats;
     HemisphereSampling hemisphere = HemisphereSampling::Cosine;
     LightSampling lights;
-    bool tainted = false;  // a throughput was not a number: the sample does not count
+    PhotonMaps const* photons = nullptr;  // of the pass
+    NearestPhotons* nearest = nullptr;    // room for a query
+    bool tainted = false;                 // a throughput was not a number: the sample does not count
 };
 
 /// State of the path between two vertices.
@@ -50,7 +64,10 @@ struct Walk {
     bool specular = true;      // … or a delta (or the camera): then lights could not be sampled there
     float eta_scale = 1;       // product of eta^2: radiance squeezed into glass is no reason to end a path
     bool hero_only = false;
-    float cone = 0;       // distance travelled: the pixel's footprint grows with it
+    Mode mode = Mode::Radiance;
+    float cone = 0;    // distance travelled: the footprint grows with it …
+    float spread = 0;  // … by so much
+    PathClass path_class;
     Interiors interiors;  // kept only in a world that encloses something
 
     static Walk from_camera(PathContext const& c, Ray const& ray) {
@@ -60,6 +77,7 @@ struct Walk {
         w.beta = c.lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
         if (c.world.encloses()) w.interiors = c.job.camera_interiors();
         w.from.p = ray.o;
+        w.spread = c.job.camera().pixel_spread();
         return w;
     }
 };
@@ -84,6 +102,7 @@ inline Receiver receiver_of(Vertex const& v) {
 enum class EmissionWeight : std::uint8_t {
     Mis,          // power heuristic
     All,          // lights are not sampled
+    None,         // emission is not asked for: light paths
     SpecularOnly  // lights are sampled without MIS: count only what could not be sampled
 };
 
@@ -108,9 +127,11 @@ bool survives(PathContext& c, Walk& walk, Roulette const& roulette);
 /// What the layers of the first hit record.
 void record_first_hit(PathContext& c, Walk const& walk, bool scatters, Vertex const& v, AovSample* aov);
 
-// The integrators: radiance along a camera ray.
-Spectrum radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
-Spectrum radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
-Spectrum radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+// The integrators: radiance along a camera ray, by classes of paths.
+SeenLight radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+SeenLight radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+SeenLight radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+SeenLight radiance(PhotonMapIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 
 }  // namespace nephroid

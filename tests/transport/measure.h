@@ -62,7 +62,13 @@ inline Means measure(World const& world, Settings s, std::uint64_t passes, bool 
         s.seed = first_seed * 1000 + batch;
         RenderJob const job(world, s);
         Film film = job.make_film();
-        std::uint64_t const dropped = render_tile(job, {0, nx, 0, ny}, {0, passes}, film, stats);
+        std::uint64_t dropped = 0;
+        if (job.prepares())
+            for (std::uint64_t i = 0; i < passes; ++i)
+                dropped +=
+                    render_tile(job, *prepare_pass(job, i, {}), {0, nx, 0, ny}, {i, i + 1}, film, stats);
+        else
+            dropped = render_tile(job, {}, {0, nx, 0, ny}, {0, passes}, film, stats);
         CHECK(dropped == 0);
         for (std::size_t c = 0; c < 3; ++c) {
             double sum = 0;

@@ -37,7 +37,9 @@ inline BsdfTraits traits(CoatedDiffuseBsdf const& b) {
 inline BsdfTraits traits(CoatedConductorBsdf const& b) {
     return {.delta = b.facets.smooth() && b.coat.facets.smooth() && b.coat.albedo.is_black(),
             .chooses = true,
-            .hero_only = b.coat.dispersive};
+            .hero_only = b.coat.dispersive,
+            .near_specular =
+                b.facets.near_specular() && b.coat.facets.near_specular() && b.coat.albedo.is_black()};
 }
 NEPHROID_BSDF(CoatedDiffuseBsdf);
 NEPHROID_BSDF(CoatedConductorBsdf);

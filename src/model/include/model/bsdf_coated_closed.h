@@ -18,7 +18,10 @@ struct ClosedCoatedConductorBsdf {
     bool dispersive = false;
 };
 inline BsdfTraits traits(ClosedCoatedConductorBsdf const& b) {
-    return {.delta = b.coat.smooth() && b.base.smooth(), .chooses = true, .hero_only = b.dispersive};
+    return {.delta = b.coat.smooth() && b.base.smooth(),
+            .chooses = true,
+            .hero_only = b.dispersive,
+            .near_specular = b.coat.near_specular() && b.base.near_specular()};
 }
 NEPHROID_BSDF(ClosedCoatedConductorBsdf);
 static_assert(ScatteringModel<ClosedCoatedConductorBsdf>);

@@ -57,10 +57,13 @@ struct MetallicRoughnessBsdf {
 
 inline BsdfTraits traits(MetallicRoughnessBsdf const& b) {
     bool const smooth = b.facets.smooth();
-    return {.delta = smooth && !(b.diffusing() > 0.0f) && !b.has_sheen() && !b.has_rough_coat(),
+    bool const bare = !(b.diffusing() > 0.0f) && !b.has_sheen();
+    return {.delta = smooth && bare && !b.has_rough_coat(),
             .spreads_through = b.transmitting() > 0.0f && !smooth && !b.unbent(),
             .chooses = true,
-            .hero_only = b.dispersive};
+            .hero_only = b.dispersive,
+            .near_specular =
+                bare && b.facets.near_specular() && !(b.clearcoat > 0.0f && b.clearcoat_alpha >= 0.1f)};
 }
 NEPHROID_BSDF(MetallicRoughnessBsdf);
 static_assert(ScatteringModel<MetallicRoughnessBsdf>);

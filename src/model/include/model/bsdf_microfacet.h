@@ -18,9 +18,14 @@ struct RoughDielectricBsdf {
     Microfacets facets;
 };
 
-inline BsdfTraits traits(RoughConductorBsdf const& b) { return {.chooses = b.facets.multiscatter}; }
+inline BsdfTraits traits(RoughConductorBsdf const& b) {
+    return {.chooses = b.facets.multiscatter, .near_specular = b.facets.near_specular()};
+}
 inline BsdfTraits traits(RoughDielectricBsdf const& b) {
-    return {.spreads_through = true, .chooses = true, .hero_only = b.dispersive};
+    return {.spreads_through = true,
+            .chooses = true,
+            .hero_only = b.dispersive,
+            .near_specular = b.facets.near_specular()};
 }
 NEPHROID_BSDF(RoughConductorBsdf);
 NEPHROID_BSDF(RoughDielectricBsdf);

@@ -29,6 +29,7 @@ struct BsdfTraits {
     bool spreads_through = false;  // `evaluate` may be above 0 with wo and wi on different sides
     bool chooses = false;          // `sample` looks at uc
     bool hero_only = false;        // it holds for the hero lane alone: the others end here
+    bool near_specular = false;    // nothing but delta and near-specular parts (Microfacets::near_specular)
 };
 
 /// The functions of one model, defined in its own file.

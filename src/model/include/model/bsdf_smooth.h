@@ -18,9 +18,13 @@ struct ConductorBsdf {
     Spectrum eta, k;
 };
 
-inline BsdfTraits traits(DielectricBsdf const&) { return {.delta = true, .chooses = true}; }
-inline BsdfTraits traits(ThinDielectricBsdf const&) { return {.delta = true, .chooses = true}; }
-inline BsdfTraits traits(ConductorBsdf const&) { return {.delta = true}; }
+inline BsdfTraits traits(DielectricBsdf const&) {
+    return {.delta = true, .chooses = true, .near_specular = true};
+}
+inline BsdfTraits traits(ThinDielectricBsdf const&) {
+    return {.delta = true, .chooses = true, .near_specular = true};
+}
+inline BsdfTraits traits(ConductorBsdf const&) { return {.delta = true, .near_specular = true}; }
 #define NEPHROID_DELTA_BSDF(B)                                                         \
     inline Spectrum evaluate(B const&, Vec3, Vec3, Mode) { return {}; }                \
     inline float pdf(B const&, Vec3, Vec3, HemisphereSampling) { return 0.0f; }        \

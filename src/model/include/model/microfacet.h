@@ -15,6 +15,9 @@ struct Microfacets {
 
     /// So nearly a mirror that floats cannot tell: models turn into smooth ones (pbrt-v4).
     [[nodiscard]] bool smooth() const { return max(ax, ay) < 1e-3f; }
+    /// So narrow that light is traced through it, as through a mirror: photons would tell little there, and what it throws on other
+    /// surfaces is a caustic. Half of a GGX lobe of alpha = 0.1 lies within 6 degrees.
+    [[nodiscard]] bool near_specular() const { return max(ax, ay) < 0.1f; }
 };
 
 /// Density of normals: projected area one, integral D(wm) wm.z dwm = 1.

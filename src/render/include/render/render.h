@@ -38,6 +38,7 @@ struct RenderResult {
     RayStats rays;
     double seconds = 0;
     std::uint64_t passes = 0;  // rendered in this run
+    PhotonReport photons;      // of integrators that shoot them; its rays are among `rays`
 };
 
 /// Memory that render() takes beside the film, at most: what it may have to go back to.

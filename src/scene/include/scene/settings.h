@@ -99,7 +99,64 @@ struct DirectIntegrator {
     HemisphereSampling hemisphere = HemisphereSampling::Cosine;
     LightSampling lights;
 };
-using Integrator = std::variant<PathIntegrator, WhittedIntegrator, DirectIntegrator>;
+
+/// How photons within a radius are weighed by their distance.
+enum class Kernel : std::uint8_t { Box, Cone, Epanechnikov, Gaussian };
+/// What the photon integrators show instead of the picture.
+enum class PhotonView : std::uint8_t {
+    None,
+    Global,   // the estimate from the global map, at the first surface that is not specular
+    Caustic,  // … from the caustic map
+    Both,     // … their sum
+    Radiance  // the irradiance that was precomputed at photons, as it is looked up
+};
+/// What a pass shoots. Paths are counted as they are emitted, not as they are stored: the law, 1.4.
+struct PhotonShooting {
+    int global_paths = 100000;  // per pass, into the global map
+    int caustic_paths = -1;     // per pass, into the caustic map; -1 = as many as global_paths
+    int max_depth = 16;         // scatterings of a photon
+    bool aim = true;            // caustic paths are sent towards what reflects or refracts
+};
+/// How maps are asked.
+struct PhotonEstimates {
+    int nused = 50;            // photons per estimate, at most; 0 = all within the radius
+    float radius = 0;          // of the first pass; 0 = by the scene and the number of photons
+    float caustic_radius = 0;  // … of the caustic map; 0 = `radius`, or automatic
+    Kernel kernel = Kernel::Epanechnikov;
+    bool edge_correction = false;  // where the surface does not fill the disk, divide by what it fills
+};
+
+/// Jensen's two maps (1996, 2001): direct light by sampling lights, specular chains by tracing, caustics from their map, the rest
+/// by final gathering into the global map. A pass has many samples a pixel.
+struct PhotonMapIntegrator {
+    int max_depth = 16;  // specular bounces from the camera, and bounces of gather rays that go on as paths
+    PhotonShooting shooting{.global_paths = 200000};
+    PhotonEstimates estimates{.edge_correction = true};
+    float alpha = 2.0f / 3.0f;  // how radii shrink from pass to pass (Knaus & Zwicker 2011)
+    bool final_gather = true;
+    int gather_samples = 16;
+    int passes = 1;  // the samples of a pixel are shared out among so many
+    PhotonView visualize = PhotonView::None;
+    LightSampling lights;
+};
+/// Progressive photon mapping (Hachisuka et al. 2008; Knaus & Zwicker 2011): a sample of each pixel and new photons in each pass,
+/// radii that shrink. Indirect light and caustics are read from the maps directly.
+struct SppmIntegrator {
+    int max_depth = 5;  // bounces of whole paths, as the path integrator counts them
+    PhotonShooting shooting{.global_paths = -1};  // -1 = as many as pixels
+    PhotonEstimates estimates{.nused = 0};
+    float alpha = 2.0f / 3.0f;
+    PhotonView visualize = PhotonView::None;
+    LightSampling lights;
+};
+/// Light tracing: photon paths connected to the camera at every vertex.
+struct LightPathIntegrator {
+    int max_depth = 5;
+    int paths = -1;  // per pass; -1 = as many as pixels
+    LightSampling lights;
+};
+using Integrator = std::variant<PathIntegrator, WhittedIntegrator, DirectIntegrator, PhotonMapIntegrator,
+                                SppmIntegrator, LightPathIntegrator>;
 
 struct FilmSettings {
     Vec2i resolution{1280, 720};
@@ -121,8 +178,19 @@ struct Settings {
     FilmSettings film;
     ColorMode color = ColorMode::Spectral;
     std::uint64_t seed = 0;
-    int spp = 16;  // passes that the scene asks for
+    int spp = 16;  // samples of a pixel that the scene asks for
     SourceLocation filter_where, sampler_where, integrator_where;
 };
+
+/// Samples of a pixel in one pass. Part of what a pass is, unlike their number: hash() knows.
+inline int samples_per_pass(Settings const& s) {
+    auto const* p = std::get_if<PhotonMapIntegrator>(&s.integrator);
+    return p ? (s.spp + p->passes - 1) / p->passes : 1;
+}
+/// Passes that the settings ask for.
+inline int wanted_passes(Settings const& s) {
+    auto const* p = std::get_if<PhotonMapIntegrator>(&s.integrator);
+    return p ? p->passes : s.spp;
+}
 
 }  // namespace nephroid

@@ -8,11 +8,16 @@
 #include "scene/settings.h"
 #include "spectrum/sensor.h"
 #include "transport/interiors.h"
+#include "transport/pass_work.h"
 #include "world/world.h"
 
 #include <array>
+#include <memory>
+#include <optional>
 
 namespace nephroid {
+
+class PhotonPlan;  // photon_plan.h
 
 /// What stays the same over all passes of a render.
 class RenderJob {
@@ -31,6 +36,13 @@ class RenderJob {
     /// Pixels x0 x1 y0 y1 that are rendered.
     [[nodiscard]] std::array<int, 4> crop() const { return crop_; }
 
+    /// Of integrators that shoot photons: how many, whereto, and the radii of pass 0. Null for the others.
+    [[nodiscard]] PhotonPlan const* photon_plan() const { return plan_.get(); }
+    /// Passes have to be prepared: see prepare_pass().
+    [[nodiscard]] bool prepares() const;
+    /// The wavelengths that all paths of pass i share, where paths meet (DESIGN 5): well spread over the passes.
+    [[nodiscard]] Wavelengths pass_wavelengths(std::uint64_t i) const;
+
     /// An empty film for this job.
     [[nodiscard]] Film make_film() const;
 
@@ -43,6 +55,7 @@ class RenderJob {
     Sensor sensor_;
     std::array<int, 4> crop_{};
     Interiors interiors_;
+    std::shared_ptr<PhotonPlan const> plan_;
 };
 
 /// Pixels [x0, x1) × [y0, y1).
@@ -50,10 +63,15 @@ struct Tile {
     int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
 
+/// What pass i needs before its first pixel, made by all threads of the caller's arena: a pure function of (world, settings, seed,
+/// i). Nothing when `control` stopped it.
+std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, PrepareControl const& control);
+
 /// Adds the samples of `passes` (ascending) to the pixels of `tile`; returns how many were not finite and were dropped. Does
-/// not mark the passes as finished. Tiles that do not overlap may run at the same time.
-std::uint64_t render_tile(RenderJob const& job, Tile const& tile, PassRange passes, Film& film,
-                          RayStats& stats);
+/// not mark the passes as finished. Tiles that do not overlap may run at the same time. `work` is of the passes; where the job
+/// prepares passes there is but one.
+std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
+                          Film& film, RayStats& stats);
 
 /// The definition: every pixel of pass i, and the pass marked as finished.
 void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats);

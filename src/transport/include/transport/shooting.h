@@ -1,0 +1,39 @@
+// Shooting: the light paths of a pass, and the photons that they leave (Jensen 2001, chapter 5).
+#pragma once
+
+#include "transport/photon.h"
+#include "transport/render_pass.h"
+
+#include <optional>
+#include <vector>
+
+namespace nephroid {
+
+/// Which photons are kept.
+enum class ShotKind : std::uint8_t {
+    Global,    // L (S|D)* D: every hit on a surface that is not (near-)specular
+    Indirect,  // … without direct light, L D, and without caustics where a map of their own has them: what is read directly
+    Caustic    // L S+ D: the first such hit, of paths that were thrown there by specular surfaces alone
+};
+
+struct Shot {
+    std::vector<Photon> photons;          // by chunk of paths, in the order of the paths
+    std::vector<PhotonCounts> by_source;  // by World::light_sources()
+    std::uint64_t paths = 0;
+    RayStats rays;
+};
+
+/// The paths of pass i: a pure function of (world, settings, seed, i), the same on any number of threads. Nothing when stopped.
+std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
+                          PrepareControl const& control);
+
+/// One path of a shot, vertex by vertex, as pictures and files show them.
+struct TracedPath {
+    std::uint32_t light = 0;
+    std::vector<Vec3> vertices;         // from the light on
+    std::vector<PhotonRecord> photons;  // what it left
+};
+TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
+                            std::uint64_t paths);
+
+}  // namespace nephroid

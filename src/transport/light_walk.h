@@ -1,0 +1,25 @@
+// The walk of a light path: the same as a camera's, begun at a light and carrying power.
+//
+// beta is what the path stands for at its end, W (per nm): the power of its first ray, shared among the paths that are emitted, times
+// f_imp |cos| / pdf along the way (Veach 1997, 4.5.1; PBRT 4th ed., 16.1).
+#pragma once
+
+#include "aim.h"
+#include "walk.h"
+
+namespace nephroid {
+
+/// The beginning of a light path: the ray is on its way, no surface was met.
+struct LightStart {
+    Walk walk;
+    LightRay ray;
+};
+/// Emits path `c.sampler` is of, one of `paths`, by the power of the lights or, with `aim`, towards casters. Nothing where
+/// the light sends nothing; `light` is set whenever one was chosen.
+std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths);
+
+/// Roulette of light paths: a path survives a scattering with the share of its power that is left, so that photons weigh nearly
+/// the same (Jensen 2001, 5.2). `before` is beta before the scattering.
+bool survives_with_power(PathContext& c, Walk& walk, Spectrum before);
+
+}  // namespace nephroid

@@ -1,0 +1,43 @@
+#include "photon_plan.h"
+
+#include "scene/match.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+float PhotonPlan::shrunk(float radius, float alpha, std::uint64_t pass) {
+    // prod over j = 1 … pass of (j + alpha) / (j + 1) = Gamma(pass + 1 + alpha) / (Gamma(1 + alpha) Gamma(pass + 2)).
+    auto const n = static_cast<double>(pass);
+    auto const a = static_cast<double>(alpha);
+    double const log_square = std::lgamma(n + 1 + a) - std::lgamma(1 + a) - std::lgamma(n + 2);
+    return static_cast<float>(static_cast<double>(radius) * std::exp(0.5 * log_square));
+}
+
+std::shared_ptr<PhotonPlan const> make_photon_plan(RenderJob const& job) {
+    Settings const& s = job.settings();
+    std::uint64_t const pixels =
+        static_cast<std::uint64_t>(s.film.resolution.x) * static_cast<std::uint64_t>(s.film.resolution.y);
+    return match(s.integrator, [&](auto const& i) -> std::shared_ptr<PhotonPlan const> {
+        if constexpr (requires { i.shooting; }) {
+            auto plan = std::make_shared<PhotonPlan>();
+            PhotonShooting const& shooting = i.shooting;
+            auto const count = [](int n, std::uint64_t otherwise) {
+                return n < 0 ? otherwise : static_cast<std::uint64_t>(n);
+            };
+            plan->global_paths = count(shooting.global_paths, pixels);
+            plan->aim = Aim(job.world());
+            plan->caustic_paths = plan->aim.casts() ? count(shooting.caustic_paths, plan->global_paths) : 0;
+            float const given = i.estimates.radius, given_caustic = i.estimates.caustic_radius;
+            plan->global_radius = given > 0 ? given : automatic_radius(job, *plan, false);
+            plan->caustic_radius = given_caustic > 0 ? given_caustic
+                                   : given > 0       ? given
+                                                     : automatic_radius(job, *plan, true);
+            return plan;
+        } else {
+            return nullptr;
+        }
+    });
+}
+
+}  // namespace nephroid

@@ -1,0 +1,96 @@
+// Photons before pixels: what each pass shoots, and keeps until its tiles are done.
+#include "light_path_image.h"
+#include "photon_maps.h"
+#include "photon_plan.h"
+#include "scene/match.h"
+#include "transport/shooting.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace nephroid {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+void add(std::vector<PhotonCounts>& a, std::vector<PhotonCounts> const& b) {
+    if (a.size() < b.size()) a.resize(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i) a[i].add(b[i]);
+}
+
+/// The rule for pass i: radii shrink, numbers of photons do not.
+EstimateRule rule_of(PhotonEstimates const& e, float first_radius, float alpha, std::uint64_t pass) {
+    return {e.kernel, static_cast<std::uint32_t>(e.nused), PhotonPlan::shrunk(first_radius, alpha, pass),
+            e.edge_correction};
+}
+
+/// One map: shot, and put in order.
+bool make_map(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
+              PrepareControl const& control, PhotonMap& map, PhotonReport& report) {
+    if (paths == 0) return true;
+    auto const begun = Clock::now();
+    auto shot = shoot(job, kind, pass, paths, control);
+    if (!shot) return false;
+    auto const shot_at = Clock::now();
+    add(kind == ShotKind::Caustic ? report.caustic : report.global, shot->by_source);
+    report.rays.add(shot->rays);
+    map = PhotonMap(std::move(shot->photons));
+    report.shooting_seconds += std::chrono::duration<double>(shot_at - begun).count();
+    report.building_seconds += since(shot_at);
+    return true;
+}
+
+}  // namespace
+
+void PhotonReport::add(PhotonReport const& b) {
+    nephroid::add(global, b.global);
+    nephroid::add(caustic, b.caustic);
+    bytes = std::max(bytes, b.bytes);
+    shooting_seconds += b.shooting_seconds;
+    building_seconds += b.building_seconds;
+    rays.add(b.rays);
+}
+
+std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, PrepareControl const& control) {
+    std::optional<PassWork> work(std::in_place);
+    if (std::holds_alternative<LightPathIntegrator>(job.settings().integrator)) {
+        auto image = draw_light_paths(job, i, control, work->report.rays);
+        if (!image) return std::nullopt;
+        work->light_paths = std::make_shared<LightPathImage>(std::move(*image));
+        return work;
+    }
+    PhotonPlan const* plan = job.photon_plan();
+    if (!plan) return work;
+    auto maps = std::make_shared<PhotonMaps>();
+    bool const done = match(job.settings().integrator, [&](auto const& integrator) {
+        if constexpr (requires { integrator.shooting; }) {
+            maps->global_rule = rule_of(integrator.estimates, plan->global_radius, integrator.alpha, i);
+            maps->caustic_rule = rule_of(integrator.estimates, plan->caustic_radius, integrator.alpha, i);
+            // Gather rays see all light that falls on surfaces; without them it is read where the camera looks, where direct light is
+            // sampled.
+            bool gathers = false;
+            if constexpr (requires { integrator.final_gather; }) gathers = integrator.final_gather;
+            ShotKind const kind =
+                gathers || integrator.visualize != PhotonView::None ? ShotKind::Global : ShotKind::Indirect;
+            if (!make_map(job, kind, i, plan->global_paths, control, maps->global, work->report) ||
+                !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, control, maps->caustic,
+                          work->report))
+                return false;
+            auto const begun = Clock::now();
+            if constexpr (requires { integrator.final_gather; })
+                if (gathers || integrator.visualize == PhotonView::Radiance)
+                    maps->irradiance =
+                        IrradianceMap(job.world(), maps->global, maps->global_rule, work->report.rays);
+            work->report.building_seconds += since(begun);
+        }
+        return true;
+    });
+    if (!done) return std::nullopt;
+    work->report.bytes = maps->global.bytes() + maps->caustic.bytes() + maps->irradiance.bytes();
+    work->photons = std::move(maps);
+    return work;
+}
+
+}  // namespace nephroid
