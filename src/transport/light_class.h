@@ -22,6 +22,10 @@ struct SeenLight {
     std::array<Spectrum, 4> of;
     Spectrum& operator[](LightClass c) { return of[static_cast<std::size_t>(c)]; }
     [[nodiscard]] Spectrum total() const { return of[0] + of[1] + of[2] + of[3]; }
+    SeenLight& operator*=(float s) {
+        for (Spectrum& light : of) light *= s;
+        return *this;
+    }
     SeenLight& operator+=(SeenLight const& b) {
         for (std::size_t i = 0; i < of.size(); ++i) of[i] += b.of[i];
         return *this;

@@ -35,6 +35,18 @@ class PathSampler {
         if (sequence.kind == SequenceKind::Independent) key_ = hash_keys(key_, pass);
     }
 
+    /// Where a path splits into n: the numbers of branch s. The branches of all passes are one sequence, whose every n points in a
+    /// row are well spread.
+    [[nodiscard]] PathSampler branch(std::uint32_t s, std::uint32_t n) const {
+        std::uint64_t const index = std::uint64_t{index_} * n + s;
+        PathSampler b = *this;
+        b.key_ = hash_keys(key_, 0x6272616e6368ull + (index >> 32));
+        b.index_ = static_cast<std::uint32_t>(index);
+        b.reversed_ = reverse_bits(b.index_);
+        if (sequence_->kind == SequenceKind::Independent) b.key_ = hash_keys(b.key_, index);
+        return b;
+    }
+
     void at(std::uint32_t dimension) { dimension_ = dimension; }
     [[nodiscard]] std::uint32_t dimension() const { return dimension_; }
 
