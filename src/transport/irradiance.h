@@ -16,6 +16,8 @@ class IrradianceMap {
 
     [[nodiscard]] std::size_t size() const;
     [[nodiscard]] std::size_t bytes() const;
+    /// The mean radius of the estimates that it was made by.
+    [[nodiscard]] float typical_radius() const { return 0; }
     /// Irradiance at the nearest place on a surface that faces like n, no farther than the rule's radius; nothing there is black.
     [[nodiscard]] Spectrum at(Vec3 p, Vec3 n) const;
 };

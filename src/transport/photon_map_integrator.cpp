@@ -71,7 +71,8 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) return;
         if (!v.is.delta)
-            seen[walk.path_class.ends_after(v.is.near_specular)] += walk.beta * sample_direct(c, walk, v, true);
+            seen[walk.path_class.ends_after(v.is.near_specular)] +=
+                walk.beta * sample_direct(c, walk, v, true);
         if (!v.is.near_specular) break;
         if (!scatter(c, walk, v)) return;
     }

@@ -10,6 +10,8 @@ struct PhotonMaps {
     PhotonMap global, caustic;
     IrradianceMap irradiance;  // of the global map; where the integrator gathers
     EstimateRule global_rule, caustic_rule;
+    float shortest_gather =
+        0;  // a gather ray that is no longer goes on as a path: about as far as photons are spread
 };
 
 }  // namespace nephroid

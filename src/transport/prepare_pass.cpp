@@ -83,6 +83,7 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
                 if (gathers || integrator.visualize == PhotonView::Radiance)
                     maps->irradiance =
                         IrradianceMap(job.world(), maps->global, maps->global_rule, work->report.rays);
+            maps->shortest_gather = maps->irradiance.typical_radius();
             work->report.building_seconds += since(begun);
         }
         return true;

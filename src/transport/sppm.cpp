@@ -1,11 +1,13 @@
 // Progressive photon mapping (Hachisuka et al. 2008) in its probabilistic form (Knaus & Zwicker 2011): a pass sees each pixel once
 // and reads what its own photons say there, within a radius that depends on the pass's number alone.
 #include "photon_maps.h"
+#include "photon_view.h"
 #include "walk.h"
 
 namespace nephroid {
 
 SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
+    if (p.visualize != PhotonView::None) return show_photons(p.visualize, p.max_depth, c, ray, aov);
     SeenLight seen;
     Walk walk = Walk::from_camera(c, ray);
     Vertex v;

@@ -52,6 +52,11 @@ struct PathContext {
     PhotonMaps const* photons = nullptr;  // of the pass
     NearestPhotons* nearest = nullptr;    // room for a query
     bool tainted = false;                 // a throughput was not a number: the sample does not count
+
+    /// The same for a branch of the path, which has numbers of its own.
+    [[nodiscard]] PathContext with(PathSampler& other) const {
+        return {job, world, lambda, other, stats, hemisphere, lights, photons, nearest};
+    }
 };
 
 /// State of the path between two vertices.
