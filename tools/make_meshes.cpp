@@ -3,6 +3,7 @@
 // sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256.
 // Lengths: centimetres for the cup, metres for the water, free for the rest. z is up.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -189,6 +190,56 @@ Mesh juice() {
     return mesh;
 }
 
+// A curve through points, as smooth as Catmull and Rom's, turned around the z axis; it begins and ends along its first and last chord.
+void add_turned_curve(Mesh& mesh, std::vector<Vec2> const& points, int rows_each) {
+    auto const tangent = [&](std::size_t i) {
+        std::size_t const before = i == 0 ? 0 : i - 1, after = std::min(i + 1, points.size() - 1);
+        return (points[after] - points[before]) / double(after - before);
+    };
+    int const spans = int(points.size()) - 1;
+    add_lathe(mesh, 128, spans * rows_each, [&](double t) {
+        double const x = t * spans;
+        auto const i = std::min(std::size_t(x), points.size() - 2);
+        double const u = x - double(i), u2 = u * u, u3 = u2 * u;
+        Vec2 const a = points[i], b = points[i + 1], da = tangent(i), db = tangent(i + 1);
+        Vec2 const p =
+            (2 * u3 - 3 * u2 + 1) * a + (u3 - 2 * u2 + u) * da + (3 * u2 - 2 * u3) * b + (u3 - u2) * db;
+        Vec2 const along =
+            glm::normalize(6 * (u2 - u) * (a - b) + (3 * u2 - 4 * u + 1) * da + (3 * u2 - 2 * u) * db);
+        return ProfilePoint{p, {along.y, -along.x}};
+    });
+}
+
+// The goblet's inside, from the rim's height down to the bottom of the bowl.
+std::vector<Vec2> const kBowl{{2.55, 14}, {2.95, 12}, {3.12, 10}, {2.85, 8.2},
+                              {2, 6.9},   {1, 6.35},  {0.01, 6.2}};
+
+// A wine glass, closed: foot, stem, a bowl that narrows again upwards, and its inside.
+Mesh goblet() {
+    Mesh mesh;
+    add_turned_curve(
+        mesh, {{0.01, 0},   {1.2, 0},   {2.4, 0},   {3.2, 0.05}, {3.3, 0.16},    {3.1, 0.26},  {2, 0.42},
+               {1, 0.72},   {0.5, 1.4}, {0.4, 2.5}, {0.4, 3.8},  {0.5, 5},       {0.95, 5.75}, {2.15, 6.65},
+               {3.05, 8.1}, {3.3, 10},  {3.12, 12}, {2.72, 14},  {2.635, 14.09}, kBowl[0],     kBowl[1],
+               kBowl[2],    kBowl[3],   kBowl[4],   kBowl[5],    kBowl[6]},
+        5);
+    return mesh;
+}
+
+// What is in it, up to z = 9.2: it reaches 0.08 into the glass.
+Mesh wine() {
+    constexpr double into = 0.08;
+    Mesh mesh;
+    add_turned_curve(
+        mesh,
+        {{0.01, 6.2 - into}, {1.02, 6.35 - into}, {2.06, 6.9 - into}, {2.85 + into, 8.2}, {3.03 + into, 9.2}},
+        5);
+    add_lathe(mesh, 128, 1, [](double t) {
+        return ProfilePoint{{(3.03 + into) * (1 - t) + 0.01 * t, 9.2}, {0, 1}};
+    });
+    return mesh;
+}
+
 // A fir: three cones, one over the other, 1 high and 0.6 wide; the trunk is the scene's own.
 Mesh fir() {
     Mesh mesh;
@@ -314,6 +365,8 @@ int main(int argc, char** argv) try {
     write(dir / "meshes/knot.ply", ply(knot(), Format::Binary));
     write(dir / "meshes/tumbler.ply", ply(tumbler(), Format::Binary));
     write(dir / "meshes/juice.ply", ply(juice(), Format::Binary));
+    write(dir / "meshes/goblet.ply", ply(goblet(), Format::Binary));
+    write(dir / "meshes/wine.ply", ply(wine(), Format::Binary));
     write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
     write(dir / "textures/chart.tga", chart());
     return 0;

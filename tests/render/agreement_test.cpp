@@ -1,0 +1,158 @@
+// Integrators that share little must agree: path tracing, photon mapping with final gathering, progressive photon mapping and light
+// tracing on the scenes that we ship. Tiles of 16 x 16 pixels (8 x 8 by default) are compared by Welch's test over independent
+// batches, seeds of their own.
+//
+// Progressive estimates are biased by their radius: to first order by r at edges, where part of the disk is empty. So they are taken at
+// r and at r / 2, with the same photons, and extrapolated to 0: 2 E(r/2) - E(r).
+#include "films.h"
+#include "statistics.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+struct Subject {
+    char const* file;
+    bool light_paths;     // the camera sees no specular surface
+    float caustic_noise;  // passes of path tracing, times this
+};
+std::vector<Subject> subjects() {
+    std::vector<Subject> const all{{"cornell-box", true, 1},   {"cornell-mirror-boxes", false, 4},
+                                   {"window", false, 1},       {"lights", false, 1},
+                                   {"shapes", false, 1},       {"instances", false, 1},
+                                   {"cornell-spheres", false, 4}, {"daylight", false, 1},
+                                   {"cup", false, 4},          {"ring", false, 4},
+                                   {"pool", false, 4},         {"iced-juice", false, 4},
+                                   {"prism", false, 4}};
+    return full() ? all : std::vector<Subject>(all.begin(), all.begin() + 2);
+}
+
+constexpr int kBatches = 16;
+
+/// Means over tiles, by batch and channel.
+struct Tiles {
+    std::vector<std::array<Mean, 3>> of;
+};
+int tile_size() { return full() ? 16 : 8; }
+int picture_size() { return full() ? 64 : 24; }
+
+std::vector<std::array<double, 3>> tile_means(Film const& film) {
+    int const n = tile_size(), across = film.width() / n, down = film.height() / n;
+    std::vector<std::array<double, 3>> means(static_cast<std::size_t>(across * down));
+    for (int y = 0; y < down * n; ++y)
+        for (int x = 0; x < across * n; ++x) {
+            PixelSums const& p = film.pixel(x, y);
+            for (std::size_t c = 0; c < 3; ++c)
+                means[static_cast<std::size_t>(y / n * across + x / n)][c] += p.rgb[c] / p.weight / (n * n);
+        }
+    return means;
+}
+
+std::vector<std::array<double, 3>> render_tiles(World const& world, Settings s, int passes, std::uint64_t seed) {
+    s.seed = seed;
+    RenderJob const job(world, s);
+    return tile_means(rendered(job, {0, static_cast<std::uint64_t>(passes)}));
+}
+
+template <class Render>
+Tiles batches(Render const& render_batch) {
+    Tiles tiles;
+    for (int b = 0; b < kBatches; ++b) {
+        auto const means = render_batch(static_cast<std::uint64_t>(b));
+        tiles.of.resize(means.size());
+        for (std::size_t i = 0; i < means.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c) tiles.of[i][c].add(means[i][c]);
+    }
+    return tiles;
+}
+
+double welch_p(Mean const& a, Mean const& b, double slack) {
+    double const va = a.standard_error() * a.standard_error(), vb = b.standard_error() * b.standard_error();
+    double const off = std::abs(a.mean() - b.mean()) - slack;
+    double const dof = (va + vb) * (va + vb) / ((va * va + vb * vb) / (kBatches - 1) + 1e-300);
+    return off <= 0 ? 1 : student_p(off / std::sqrt(va + vb), dof);
+}
+
+/// `slack`: a share of the mean that may be missing where an algorithm is biased by design.
+void check_agreement(std::string const& scene, std::string const& name, Tiles const& expected, Tiles const& found,
+                     double slack) {
+    double sum_a = 0, sum_b = 0, least = 1, widest = 0;
+    double const alpha = sidak(static_cast<int>(3 * expected.of.size()));
+    for (std::size_t i = 0; i < expected.of.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            Mean const& a = expected.of[i][c];
+            Mean const& b = found.of[i][c];
+            sum_a += a.mean(), sum_b += b.mean();
+            double const p = welch_p(a, b, slack * a.mean());
+            if (p < least) least = p;
+            widest = std::max(widest, (a.half_width() + b.half_width()) / a.mean());
+            INFO(scene, ", ", name, ", tile ", i, ", channel ", c);
+            CHECK_MESSAGE(p >= alpha, a.mean(), " expected, ", b.mean(), " found, p = ", p);
+        }
+    MESSAGE(scene, ": ", name, " / path = ", sum_b / sum_a, ", least p ", least, " of ", 3 * expected.of.size(),
+            ", widest interval ", widest);
+    CHECK(std::abs(sum_b / sum_a - 1) < (full() ? 0.001 : 0.01) + slack);
+}
+
+}  // namespace
+
+TEST_CASE("path tracing, photon mapping, progressive photon mapping and light tracing agree") {
+    int const more = full() ? 16 : 1;
+    for (Subject const& subject : subjects()) {
+        Scene scene = read_scene(std::string(NEPHROID_SOURCE_DIR "/scenes/") + subject.file + ".pbrt");
+        World const world = compile(std::move(scene));
+        Settings base = world.scene().settings;
+        base.filter = BoxFilter{};
+        base.color = ColorMode::Rgb;
+        base.film.resolution = {picture_size(), picture_size()};
+        base.film.crop.reset();
+        base.film.max_component = kInfinity;
+        constexpr int kDepth = 24;
+
+        Settings path = base;
+        path.integrator = PathIntegrator{.max_depth = kDepth};
+        int const path_passes = static_cast<int>(24.0f * subject.caustic_noise) * more;
+        Tiles const expected =
+            batches([&](std::uint64_t b) { return render_tiles(world, path, path_passes, 100 + b); });
+
+        SppmIntegrator sppm;
+        sppm.max_depth = kDepth;
+        sppm.shooting = {.global_paths = 3000, .max_depth = kDepth};
+        sppm.alpha = 1;
+        Settings progressive = base;
+        progressive.integrator = sppm;
+        float const radius = 0.02f * length(world.bounds().hi - world.bounds().lo) / 1.7f;
+        Tiles const extrapolated = batches([&](std::uint64_t b) {
+            auto& i = std::get<SppmIntegrator>(progressive.integrator);
+            i.estimates.radius = radius;
+            auto const wide = render_tiles(world, progressive, 12 * more, 200 + b);
+            i.estimates.radius = radius / 2;
+            auto narrow = render_tiles(world, progressive, 12 * more, 200 + b);
+            for (std::size_t k = 0; k < narrow.size(); ++k)
+                for (std::size_t c = 0; c < 3; ++c) narrow[k][c] = 2 * narrow[k][c] - wide[k][c];
+            return narrow;
+        });
+        check_agreement(subject.file, "sppm", expected, extrapolated, full() ? 0.002 : 0.01);
+
+        PhotonMapIntegrator gathering;
+        gathering.max_depth = kDepth;
+        gathering.shooting = {.global_paths = 40000, .max_depth = kDepth};
+        gathering.gather_samples = 4;
+        Settings gathered = base;
+        gathered.integrator = gathering;
+        gathered.spp = 4 * more;
+        Tiles const by_maps = batches([&](std::uint64_t b) { return render_tiles(world, gathered, 1, 300 + b); });
+        check_agreement(subject.file, "photonmap", expected, by_maps, 0.02);
+
+        if (!subject.light_paths) continue;
+        Settings lights = base;
+        lights.integrator = LightPathIntegrator{.max_depth = kDepth, .paths = 20000};
+        Tiles const by_light = batches([&](std::uint64_t b) { return render_tiles(world, lights, 4 * more, 400 + b); });
+        check_agreement(subject.file, "lightpath", expected, by_light, 0);
+    }
+}
