@@ -84,7 +84,12 @@ inline Scene read_text(std::string const& text) {
 }
 
 inline std::vector<Integrator> integrators() {
-    return {PathIntegrator{.max_depth = 6}, DirectIntegrator{}, WhittedIntegrator{.max_depth = 6}};
+    return {PathIntegrator{.max_depth = 6},
+            DirectIntegrator{},
+            WhittedIntegrator{.max_depth = 6},
+            PhotonMapIntegrator{.shooting = {.global_paths = 300}, .gather_samples = 2},
+            SppmIntegrator{.shooting = {.global_paths = 300}},
+            LightPathIntegrator{}};
 }
 inline std::vector<Sampler> samplers() {
     return {SobolSampler{}, StratifiedSampler{.x_strata = 2, .y_strata = 3}, IndependentSampler{}};
