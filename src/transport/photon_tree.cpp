@@ -56,30 +56,28 @@ PhotonTree::PhotonTree(std::span<PlacedPhoton const> photons) {
 }
 
 void PhotonTree::nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhotons& out) const {
-    out.begin(k, points_.size() * 8);
+    out.found = {};
+    if (k == 0 || levels_ == 0) return;
+    out.begin(std::min<std::size_t>(k, points_.size() * 8), distance2);
     struct Open {
         float distance2;
         std::uint32_t node, level;
     };
     std::array<Open, 8 * kMostLevels> stack;
     std::size_t open = 0;
-    if (k > 0 && levels_ > 0) stack[open++] = {0.0f, 0, levels_};  // the root, as the only child of none
+    stack[open++] = {0.0f, 0, levels_};  // the root, as the only child of none
     Points8 const at = all8(p);
-    float most = distance2;
     while (open > 0) {
         auto const [near, node, level] = stack[--open];
-        if (!(near < most)) continue;
+        if (!(near < out.most())) continue;
         if (level == 0) {
-            for (std::uint32_t b = node * kLeafBlocks; b < (node + 1) * kLeafBlocks; ++b) {
-                Float8 const d2 = points_[b].distance2(at);
-                each_bit(less8(d2, all8(most)), [&](std::uint32_t lane) { out.add(d2[lane], 8 * b + lane); });
-                if (out.full()) most = out.sort_out();
-            }
+            for (std::uint32_t b = node * kLeafBlocks; b < (node + 1) * kLeafBlocks; ++b)
+                out.add(points_[b].distance2(at), 8 * b);
             continue;
         }
         Float8 const d2 = nodes_[first_[level - 1] + node].distance2(at);
         std::size_t const bottom = open;
-        each_bit(less8(d2, all8(most)), [&](std::uint32_t i) {
+        each_bit(less8(d2, all8(out.most())), [&](std::uint32_t i) {
             // The nearest is opened first: it lies on top.
             std::size_t place = open++;
             for (; place > bottom && stack[place - 1].distance2 < d2[i]; --place)

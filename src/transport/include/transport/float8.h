@@ -4,6 +4,7 @@
 
 #include "math/vec.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -38,6 +39,10 @@ inline Float8 max8(Float8 a, Float8 b) {
 #endif
 }
 
+/// Writes those lanes of `from` whose bits are set to `to`, one after the other, and their numbers plus `first` to `numbers`.
+/// Room for eight is needed. Returns how many.
+std::uint32_t pack8(std::uint32_t bits, Float8 from, std::uint32_t first, float* to, std::uint32_t* numbers);
+
 /// Eight points.
 struct Points8 {
     Float8 x, y, z;
@@ -69,6 +74,31 @@ struct Boxes8 {
 template <class F>
 void each_bit(std::uint32_t bits, F&& f) {
     for (; bits != 0; bits &= bits - 1) f(static_cast<std::uint32_t>(std::countr_zero(bits)));
+}
+
+inline constexpr auto kLanesOfBits = [] {
+    std::array<std::uint64_t, 256> lanes{};  // a byte for each bit that is set
+    for (std::uint32_t bits = 0; bits < 256; ++bits)
+        for (std::uint32_t lane = 0, n = 0; lane < 8; ++lane)
+            if (bits >> lane & 1u) lanes[bits] |= std::uint64_t{lane} << 8u * n++;
+    return lanes;
+}();
+
+inline std::uint32_t pack8(std::uint32_t bits, Float8 from, std::uint32_t first, float* to,
+                           std::uint32_t* numbers) {
+#ifdef __AVX2__
+    __m256i const lanes = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kLanesOfBits[bits])));
+    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(from, lanes));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers),
+                        _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first))));
+#else
+    std::uint64_t lanes = kLanesOfBits[bits];
+    for (int i = 0; i < std::popcount(bits); ++i, lanes >>= 8) {
+        auto const lane = static_cast<std::uint32_t>(lanes & 7u);
+        to[i] = from[lane], numbers[i] = first + lane;
+    }
+#endif
+    return static_cast<std::uint32_t>(std::popcount(bits));
 }
 
 }  // namespace nephroid

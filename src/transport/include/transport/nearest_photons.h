@@ -1,5 +1,11 @@
-// The answer of a search for the k nearest, and room to find it in.
+// The answer of a search for the k nearest, and the room to find it in.
+//
+// What is found is written down as it comes. When the room is full, the farthest are forgotten: by a histogram of the upper bits
+// of squared distances, in a time that grows with their number alone and without branches that depend on them. That leaves k and
+// a few; which of those few are in is settled in the end. A heap takes three times as long (docs/decisions/0008).
 #pragma once
+
+#include "transport/float8.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,20 +28,32 @@ class NearestPhotons {
 
     std::span<FoundPhoton> found;  // in no order; until the next query
 
-    /// Begins a search for k of `all` photons: room for those found so far, of which the k nearest are wanted, and some more, so
-    /// that they need not be sorted out at each.
-    void begin(std::uint32_t k, std::size_t all);
-    /// Room for eight more is made beforehand: true where sort_out() must come first.
-    [[nodiscard]] bool full() const { return count_ + 8 > room_.size(); }
-    void add(float distance2, std::uint32_t index) { room_[count_++] = {distance2, index}; }
-    /// Leaves the k nearest of those found. Returns the squared distance of the farthest of them.
-    float sort_out();
-    [[nodiscard]] bool sated() const { return count_ >= k_; }
+  private:
+    friend class PhotonTree;
+
+    /// Begins a search for k > 0 of photons with squared distance < distance2.
+    void begin(std::size_t k, float distance2);
+    /// Those nearer than that may still be among the k nearest.
+    [[nodiscard]] float most() const { return most_; }
+    /// Adds photons first ... first + 7 if they are near enough.
+    void add(Float8 distance2, std::uint32_t first) {
+        count_ +=
+            pack8(less8(distance2, all8(most_)), distance2, first, &distance2_[count_], &index_[count_]);
+        if (count_ > full_) forget();
+    }
     void end();
 
-  private:
+    /// Forgets those that are not among the k nearest, or all but a few of them.
+    void forget();
+    void forget_exactly();
+    void keep_up_to(std::uint32_t bits);
+
+    std::vector<float> distance2_;
+    std::vector<std::uint32_t> index_;
     std::vector<FoundPhoton> room_;
-    std::size_t count_ = 0, k_ = 0;
+    std::size_t count_ = 0, k_ = 0, full_ = 0;
+    float most_ = 0;
+    std::uint32_t certain_ = 0;  // those with fewer bits are among the k nearest
 };
 
 }  // namespace nephroid
