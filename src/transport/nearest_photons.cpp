@@ -32,20 +32,28 @@ void NearestPhotons::begin(std::size_t k, float distance2) {
 }
 
 void NearestPhotons::forget() {
-    // Classes by how much nearer they are than the farthest: class 0 is as far, the last takes all that are much nearer.
-    float farthest = 0;
-    for (std::size_t i = 0; i < count_; ++i) farthest = distance2_[i] > farthest ? distance2_[i] : farthest;
-    std::uint32_t const top = bits_of(farthest) >> kShift;
-    auto const class_of = [top](float d2) { return std::min(top - (bits_of(d2) >> kShift), kClasses - 1); };
-    std::array<std::uint32_t, kClasses> histogram{};
-    for (std::size_t i = 0; i < count_; ++i) ++histogram[class_of(distance2_[i])];
-    // The class of the k-th; what is farther goes.
-    std::size_t left = count_;
-    std::uint32_t last = 0;
-    while (left - histogram[last] >= k_) left -= histogram[last++];
-    if (left > full_ - 8 || last == kClasses - 1) return forget_exactly();
-    certain_ = (top - last) << kShift;
-    keep_up_to(certain_ | ((1u << kShift) - 1));
+    while (true) {
+        // Classes by how much nearer they are than the farthest: class 0 is as far, the last takes all that are much nearer.
+        float farthest = 0;
+        for (std::size_t i = 0; i < count_; ++i)
+            farthest = distance2_[i] > farthest ? distance2_[i] : farthest;
+        std::uint32_t const top = bits_of(farthest) >> kShift;
+        auto const class_of = [top](float d2) {
+            return std::min(top - (bits_of(d2) >> kShift), kClasses - 1);
+        };
+        std::array<std::uint32_t, kClasses> histogram{};
+        for (std::size_t i = 0; i < count_; ++i) ++histogram[class_of(distance2_[i])];
+        // The class of the k-th; what is farther goes.
+        std::size_t left = count_;
+        std::uint32_t last = 0;
+        while (left - histogram[last] >= k_) left -= histogram[last++];
+        bool const vague = last == kClasses - 1, stuck = left == count_;
+        if (stuck && (vague || left > full_ - 8)) return forget_exactly();
+        std::uint32_t const nearest = (top - last) << kShift;
+        certain_ = vague ? 0 : nearest;
+        keep_up_to(nearest | ((1u << kShift) - 1));
+        if (!vague && count_ <= full_ - 8) return;
+    }
 }
 
 void NearestPhotons::keep_up_to(std::uint32_t bits) {

@@ -63,7 +63,7 @@ void PhotonTree::nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhoton
         float distance2;
         std::uint32_t node, level;
     };
-    std::array<Open, 8 * kMostLevels> stack;
+    std::array<Open, 16 * kMostLevels> stack;
     std::size_t open = 0;
     stack[open++] = {0.0f, 0, levels_};  // the root, as the only child of none
     Points8 const at = all8(p);
@@ -76,9 +76,10 @@ void PhotonTree::nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhoton
             continue;
         }
         Float8 const d2 = nodes_[first_[level - 1] + node].distance2(at);
-        std::size_t const bottom = open;
+        // The nearest is opened first: it lies on top. Before there are k, of all that is open, because a large box around p may hold
+        // none near p; then, of the eight.
+        std::size_t const bottom = level == 1 || out.sated() || open > 8 * kMostLevels ? open : 0;
         each_bit(less8(d2, all8(out.most())), [&](std::uint32_t i) {
-            // The nearest is opened first: it lies on top.
             std::size_t place = open++;
             for (; place > bottom && stack[place - 1].distance2 < d2[i]; --place)
                 stack[place] = stack[place - 1];

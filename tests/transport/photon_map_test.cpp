@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 using namespace nephroid;
@@ -193,6 +194,7 @@ TEST_CASE("every photon is in the map, once") {
 }
 
 TEST_CASE("a photon map is the same on any number of threads") {
+    tbb::global_control const more(tbb::global_control::max_allowed_parallelism, 8);
     for (Cloud const& cloud : kClouds) {
         CAPTURE(cloud.name);
         auto const photons = photons_at(places_of(cloud, 300000, 8));

@@ -35,6 +35,7 @@ class NearestPhotons {
     void begin(std::size_t k, float distance2);
     /// Those nearer than that may still be among the k nearest.
     [[nodiscard]] float most() const { return most_; }
+    [[nodiscard]] bool sated() const { return count_ >= k_; }
     /// Adds photons first ... first + 7 if they are near enough.
     void add(Float8 distance2, std::uint32_t first) {
         count_ +=
