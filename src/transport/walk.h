@@ -6,7 +6,7 @@
 #pragma once
 
 #include "film/film.h"
-#include "light_class.h"
+#include "transport/light_class.h"
 #include "math/frame.h"
 #include "model/material.h"
 #include "sampling/path_sampler.h"

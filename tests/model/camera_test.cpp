@@ -179,8 +179,16 @@ std::vector<Named> all_kinds() {
 
 TEST_CASE("project finds where a ray began; sample_importance finds the ray") {
     Random r(3);
-    for (auto const& [name, camera, size] : all_kinds()) {
+    for (Named const& named : all_kinds()) {
+        std::string const& name = named.name;
+        PreparedCamera const& camera = named.camera;
+        Vec2 const size = named.resolution;
         CAPTURE(name);
+        auto const off = [&](Vec2 a, Vec2 b) {
+            // A pixel of a latitude-longitude picture is narrow near the poles.
+            float const wide = name.starts_with("lat-long") ? std::sin(kPi * b.y / size.y) : 1.0f;
+            return length(Vec2{(a.x - b.x) * wide, a.y - b.y});
+        };
         for (int i = 0; i < 2000; ++i) {
             Vec2 const film{size.x * r.unit(), size.y * r.unit()};
             Vec2 const lens = random_square(r);
@@ -188,14 +196,14 @@ TEST_CASE("project finds where a ray began; sample_importance finds the ray") {
             float const t = 0.5f + 10 * r.unit();
             auto const s = camera.sample_importance(ray.o + t * ray.d, lens);
             REQUIRE(s);
-            REQUIRE(length(s->raster - film) < 2e-3f);
+            REQUIRE(off(s->raster, film) < 1e-3f);
             REQUIRE(length(s->from - ray.o) < 2e-5f * t);
             REQUIRE(length(s->wi + ray.d) < 1e-5f);
             REQUIRE(s->distance == doctest::Approx(t).epsilon(1e-4));
             Ray const central = camera.ray(film, {0.5f, 0.5f}).ray;
             auto const p = camera.project(central.o + t * central.d);
             REQUIRE(p);
-            REQUIRE(length(*p - film) < 1e-3f);
+            REQUIRE(off(*p, film) < 1e-3f);
         }
     }
     // Behind the camera, and at its very place.
@@ -209,7 +217,10 @@ TEST_CASE("project finds where a ray began; sample_importance finds the ray") {
 
 TEST_CASE("importance is how densely the film covers what it sees") {
     Random r(4);
-    for (auto const& [name, camera, size] : all_kinds()) {
+    for (Named const& named : all_kinds()) {
+        std::string const& name = named.name;
+        PreparedCamera const& camera = named.camera;
+        Vec2 const size = named.resolution;
         CAPTURE(name);
         for (int i = 0; i < 1000; ++i) {
             // Away from the seams, where neighbours on the film are no neighbours in the world.
@@ -254,7 +265,8 @@ TEST_CASE("importance over all that a pixel sees is 1") {
         std::vector<Mean> pixels(static_cast<std::size_t>(size.x * size.y));
         for (int batch = 0; batch < 32; ++batch) {
             std::vector<double> sums(pixels.size());
-            int const n = samples(40'000, 400'000);
+            int const n = std::holds_alternative<OrthographicCamera>(kind) ? samples(400'000, 1'600'000)
+                                                                           : samples(250'000, 1'000'000);
             for (int i = 0; i < n; ++i) {
                 Vec3 const w = random_direction(r);
                 auto const s = camera.sample_importance(static_cast<float>(radius) * w, random_square(r));
@@ -267,7 +279,8 @@ TEST_CASE("importance over all that a pixel sees is 1") {
             for (std::size_t i = 0; i < sums.size(); ++i) pixels[i].add(sums[i]);
         }
         for (Mean const& m : pixels) {
-            auto const a = agrees(m, 1, 0.01, sidak(static_cast<int>(pixels.size()) * 6));
+            auto const a = agrees(m, 1, 0.01 * (kSanitizerShare > 1 ? 4 : 1),
+                                  sidak(static_cast<int>(pixels.size()) * 6));
             CHECK_MESSAGE(a, a);
         }
     }
