@@ -176,7 +176,8 @@ Vec2 PreparedCamera::wrap(Vec2 film) const {
     Vec2 q = film * scale_;
     if (spherical->mapping == SphericalMappingKind::EqualArea) return wrap_equal_area_square(q) / scale_;
     // Over a pole, and down on the other side.
-    if (q.y < 0.0f || q.y > 1.0f) q = {q.x + 0.5f, q.y < 0.0f ? -q.y : 2.0f - q.y};
+    q.y -= 2.0f * std::floor(0.5f * q.y);
+    if (q.y > 1.0f) q = {q.x + 0.5f, 2.0f - q.y};
     q.x -= std::floor(q.x);
     return q / scale_;
 }

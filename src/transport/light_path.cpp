@@ -80,17 +80,29 @@ class LightPathPen {
                          camera->raster.y < static_cast<float>(size.y) + reach.y))
             return std::nullopt;
         c.sampler.at(pixel_number);
-        FilterPixel const chosen = job_.filter().choose_pixel(camera->raster, c.sampler.next_2d());
-        if (chosen.weight == 0.0f) return std::nullopt;
-        View found{*camera, chosen.pixel, camera->importance * chosen.weight};
+        Vec2 const number = c.sampler.next_2d();
+        FilterPixel chosen = job_.filter().choose_pixel(camera->raster, number);
         // Panoramas have no edge: a pixel beyond it is one on the other side.
         if (chosen.pixel.x < 0 || chosen.pixel.y < 0 || chosen.pixel.x >= size.x ||
             chosen.pixel.y >= size.y) {
-            Vec2 const centre{static_cast<float>(chosen.pixel.x) + 0.5f,
-                              static_cast<float>(chosen.pixel.y) + 0.5f};
-            Vec2 const within = job_.camera().wrap(centre);
-            found.pixel = {static_cast<int>(std::floor(within.x)), static_cast<int>(std::floor(within.y))};
+            auto const wrapped = [&](Vec2i outside) {
+                Vec2 const within = job_.camera().wrap(
+                    {static_cast<float>(outside.x) + 0.5f, static_cast<float>(outside.y) + 0.5f});
+                return Vec2i{static_cast<int>(std::floor(within.x)), static_cast<int>(std::floor(within.y))};
+            };
+            Vec2i const within = wrapped(chosen.pixel);
+            if (job_.camera().by_latitude() && (chosen.pixel.y < 0 || chosen.pixel.y >= size.y)) {
+                // Over a pole the columns are others.
+                float const half_turn = 0.5f * static_cast<float>(size.x);
+                Vec2 const turned{camera->raster.x + half_turn, camera->raster.y};
+                chosen = job_.filter().choose_pixel(turned, number);
+                chosen.pixel = {wrapped({chosen.pixel.x, within.y}).x, within.y};
+            } else {
+                chosen.pixel = within;
+            }
         }
+        if (chosen.weight == 0.0f) return std::nullopt;
+        View const found{*camera, chosen.pixel, camera->importance * chosen.weight};
         if (!image_.holds(found.pixel)) return std::nullopt;
         return found;
     }

@@ -102,13 +102,13 @@ TEST_CASE("a furnace seen by every camera through every filter: L_e (1 - R^N) / 
         for (Filter const& filter :
              {Filter{BoxFilter{}}, Filter{GaussianFilter{}}, Filter{MitchellFilter{}}}) {
             CAPTURE(filter.index());
-            Settings how = settings(light_paths(2, samples(40'000, 400'000)), 3, 3);
+            Settings how = settings(light_paths(2, samples(10'000, 400'000)), 3, 3);
             how.filter = filter;
             auto const means = measure_layers(world, how, 1);
             double mean = 0;
             for (auto const& m : means) {
                 mean += m.beauty[1].mean() / 9;
-                auto const a = agrees(m.beauty[1], 1.75, 0.05 * (kSanitizerShare > 1 ? 4 : 1), sidak(9 * 18));
+                auto const a = agrees(m.beauty[1], 1.75, 0.08 * (kSanitizerShare > 1 ? 4 : 1), sidak(9 * 18));
                 CHECK_MESSAGE(a, a);
             }
             CHECK(mean == doctest::Approx(1.75).epsilon(0.01 * (kSanitizerShare > 1 ? 4 : 1)));
@@ -162,12 +162,13 @@ TEST_CASE("a box of many surfaces, seen by path tracing and by light tracing, cl
         CAPTURE(name);
         Scene s = box_of_surfaces();
         s.camera.kind = kind;
-        look(s, {0.05f, -0.95f, 0.1f}, {0, 1, -0.1f});
+        look(s, {0.05f, -0.75f, 0.1f}, {0, 1, -0.1f});
         if (name.starts_with("orthographic")) s.camera.screen_window = {{-0.9f, 0.9f, -0.8f, 0.8f}};
         World const world = compile(std::move(s));
         Settings how = settings(path(1), 3, 3);
         how.filter = GaussianFilter{};
-        check_same_picture(world, how, 4, 40'000, 150, 1);
+        bool const parallel = name.starts_with("orthographic");
+        check_same_picture(world, how, 4, 20'000, 150, 1, parallel ? 0.3 : 0.15);
     }
 }
 
@@ -223,7 +224,7 @@ TEST_CASE("a camera in a body that absorbs: Beer's law along the connection") {
     look(s, {0, -0.8f, 0.2f}, {0, 0.2f, -0.2f});
     s.camera.kind = PerspectiveCamera{1.5f, 0, 1e6f};
     World const world = compile(std::move(s));
-    check_same_picture(world, settings(path(1), 3, 3), 3, 60'000, 300, 1);
+    check_same_picture(world, settings(path(1), 3, 3), 3, 60'000, 300, 1, 0.12);
 }
 
 TEST_CASE("every pass alone is right, and no pass knows of the others or of the crop") {

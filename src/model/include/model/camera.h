@@ -45,6 +45,12 @@ class PreparedCamera {
     /// Rays beyond the edge of a picture that shows all directions are rays within it: the point of the film whose ray it is.
     /// Other pictures end at their edges, and the point stays where it is.
     [[nodiscard]] Vec2 wrap(Vec2 film) const;
+    /// A picture by latitude and longitude goes on beyond its poles half a turn away: half a pixel off its columns, where their
+    /// number is odd.
+    [[nodiscard]] bool by_latitude() const {
+        auto const* s = std::get_if<SphericalCamera>(&camera_.kind);
+        return s && s->mapping == SphericalMappingKind::EquiRectangular;
+    }
     /// Does `lens` matter?
     [[nodiscard]] bool has_lens() const { return has_lens_; }
     /// Width of a pixel's footprint at unit distance along the axis (perspective) or anywhere (orthographic), about.
