@@ -6,7 +6,6 @@
 #include "light_path_image.h"
 #include "sampling/hash.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,6 +13,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
@@ -68,7 +68,7 @@ double in_order(Picture const& p, std::size_t count) {
             wave[k].clear();
             for (std::size_t i = 0; i < kChunkSplats; ++i)
                 wave[k].add(splat(p, (first + k) * kChunkSplats + i));
-            wave[k].sort(image.band_size());
+            wave[k].sort();
         });
         image.add(std::span(wave).first(n));
     }
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
         Way const way = ways().at(static_cast<std::size_t>(std::stoul(argv[1])));
         Picture const picture = pictures().at(static_cast<std::size_t>(std::stoul(argv[2])));
         tbb::task_arena arena(1);
-        arena.execute([&] { fmt::print("{}\n", way.add(picture, std::stoul(argv[3]))); });
+        arena.execute([&] { std::printf("%g\n", way.add(picture, std::stoul(argv[3]))); });
         return 0;
     }
     std::size_t const count = argc > 1 ? std::stoul(argv[1]) : 6'000'000;
@@ -123,11 +123,11 @@ int main(int argc, char** argv) {
     for (Picture const& p : pictures()) {
         for (int const threads : {1, cores}) {
             double const base = nanoseconds(ways()[0], p, count, threads);
-            fmt::print("{:<20} {:>2} threads: made {:5.2f} ns", p.name, threads, base);
+            std::printf("%-20s %2d threads: made %5.2f ns", p.name.c_str(), threads, base);
             for (std::size_t w = 1; w < 3; ++w)
-                fmt::print(", {} +{:.2f} ns", ways()[w].name,
-                           nanoseconds(ways()[w], p, count, threads) - base);
-            fmt::print("\n");
+                std::printf(", %s +%.2f ns", ways()[w].name.c_str(),
+                            nanoseconds(ways()[w], p, count, threads) - base);
+            std::printf("\n");
         }
     }
 }

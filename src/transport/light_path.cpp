@@ -197,7 +197,7 @@ std::optional<LightPathImage> draw_light_paths(RenderJob const& job, std::uint64
             std::uint64_t const begin = (first + k) * kChunkPaths;
             for (std::uint64_t path = begin; path < std::min(paths, begin + kChunkPaths); ++path)
                 pen.draw(path, splats, wave_stats[k]);
-            splats.sort(image->band_size());
+            splats.sort();
         });
         if (control.stopped()) return std::nullopt;
         image->add(std::span(wave).first(count));

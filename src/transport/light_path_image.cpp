@@ -4,14 +4,14 @@
 
 namespace nephroid {
 
-void SplatChunk::sort(std::uint32_t band_size) {
-    // By counting, and stable: within a band the order of the paths remains.
+void SplatChunk::sort() {
+    // By counting, and stable: within a share the order of the paths remains.
     begin_.fill(0);
-    for (Splat const& s : splats_) ++begin_[s.where() / band_size + 1];
-    for (std::size_t b = 0; b < kBands; ++b) begin_[b + 1] += begin_[b];
+    for (Splat const& s : splats_) ++begin_[share_of(s) + 1];
+    for (std::size_t i = 0; i < kShares; ++i) begin_[i + 1] += begin_[i];
     sorted_.resize(splats_.size());
-    std::array<std::uint32_t, kBands + 1> next = begin_;
-    for (Splat const& s : splats_) sorted_[next[s.where() / band_size]++] = s;
+    std::array<std::uint32_t, kShares + 1> next = begin_;
+    for (Splat const& s : splats_) sorted_[next[share_of(s)]++] = s;
 }
 
 LightPathImage::LightPathImage(std::array<int, 4> crop, bool by_class) : crop_(crop) {
@@ -33,9 +33,9 @@ std::size_t LightPathImage::bytes() const {
 }
 
 void LightPathImage::add(std::span<SplatChunk const> chunks) {
-    tbb::parallel_for(std::size_t{0}, SplatChunk::kBands, [&](std::size_t band) {
+    tbb::parallel_for(std::size_t{0}, SplatChunk::kShares, [&](std::size_t share) {
         for (SplatChunk const& chunk : chunks)
-            for (Splat const& s : chunk.band(band))
+            for (Splat const& s : chunk.share(share))
                 for (std::size_t c = 0; c < 3; ++c) {
                     double const v = static_cast<double>(s.rgb[static_cast<int>(c)]);
                     total_[s.where()][c] += v;

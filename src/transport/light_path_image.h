@@ -26,22 +26,24 @@ struct Splat {
 };
 static_assert(sizeof(Splat) == 16);
 
-/// Splats of some paths in their order, sorted by the bands of the picture that they fall on.
+/// Splats of some paths in their order, sorted by the share of the picture that they fall on. A share is every 64th run of 64
+/// pixels: a caustic lies in many of them.
 class SplatChunk {
   public:
-    static constexpr std::size_t kBands = 64;
+    static constexpr std::size_t kShares = 64;
+    static std::size_t share_of(Splat const& s) { return s.where() / 64 % kShares; }
 
     void clear() { splats_.clear(); }
     void add(Splat const& s) { splats_.push_back(s); }
-    /// Once all are in. `band_size`: pixels.
-    void sort(std::uint32_t band_size);
-    [[nodiscard]] std::span<Splat const> band(std::size_t b) const {
-        return std::span(sorted_).subspan(begin_[b], begin_[b + 1] - begin_[b]);
+    /// Once all are in.
+    void sort();
+    [[nodiscard]] std::span<Splat const> share(std::size_t i) const {
+        return std::span(sorted_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
     }
 
   private:
     std::vector<Splat> splats_, sorted_;
-    std::array<std::uint32_t, kBands + 1> begin_{};
+    std::array<std::uint32_t, kShares + 1> begin_{};
 };
 
 class LightPathImage {
@@ -63,11 +65,7 @@ class LightPathImage {
         return static_cast<std::uint32_t>(y - crop_[2]) * static_cast<std::uint32_t>(crop_[1] - crop_[0]) +
                static_cast<std::uint32_t>(x - crop_[0]);
     }
-    /// Pixels of a band.
-    [[nodiscard]] std::uint32_t band_size() const {
-        return static_cast<std::uint32_t>(total_.size() / SplatChunk::kBands + 1);
-    }
-    /// Adds the splats of chunks in their order, the bands at the same time.
+    /// Adds the splats of chunks in their order, the shares at the same time.
     void add(std::span<SplatChunk const> chunks);
 
   private:
