@@ -24,6 +24,14 @@ struct Estimate {
     std::uint32_t photons = 0;  // that counted
 };
 
+/// For the layers: the radius and the number of photons that a sample's first estimates took, from both maps.
+inline void record_estimates(Estimate const& caustic, Estimate const& global, AovSample& aov) {
+    if (aov.estimated) return;
+    aov.estimated = true;
+    aov.radius = max(caustic.radius, global.radius);
+    aov.photons = static_cast<float>(caustic.photons) + static_cast<float>(global.photons);
+}
+
 /// Radiance that v reflects of the light that the photons of `map` brought. Those that would make the path longer than
 /// `most_bounces` do not count (photon's bounces + 1 + `walk.vertex`).
 Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap const& map,

@@ -58,6 +58,7 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
     if (std::holds_alternative<LightPathIntegrator>(job.settings().integrator)) {
         auto image = draw_light_paths(job, i, control, work->report.rays);
         if (!image) return std::nullopt;
+        work->report.bytes = image->bytes();
         work->light_paths = std::make_shared<LightPathImage>(std::move(*image));
         return work;
     }
