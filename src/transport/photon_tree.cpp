@@ -55,10 +55,8 @@ PhotonTree::PhotonTree(std::span<PlacedPhoton const> photons) {
     }
 }
 
-void PhotonTree::nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhotons& out) const {
-    out.found = {};
-    if (k == 0 || levels_ == 0) return;
-    out.begin(std::min<std::size_t>(k, points_.size() * 8), distance2);
+void PhotonTree::nearest(Vec3 p, NearestPhotons& out) const {
+    if (levels_ == 0) return;
     struct Open {
         float distance2;
         std::uint32_t node, level;
@@ -86,7 +84,6 @@ void PhotonTree::nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhoton
             stack[place] = {d2[i], 8 * node + i, level - 1};
         });
     }
-    out.end();
 }
 
 }  // namespace nephroid

@@ -110,6 +110,14 @@ Found nearest(PhotonMap const& map, Vec3 p, std::uint32_t k, float most, Nearest
     return sorted_out(map, p, room.found);
 }
 
+/// Within which a photon in the middle of the list has fifty others or so.
+float radius_for(std::vector<Vec3> const& places) {
+    if (places.size() < 2) return 1.0f;
+    auto const all = all_distances(places, places[places.size() / 2]);
+    float const d2 = all[std::min<std::size_t>(50, all.size() - 1)];
+    return d2 > 0.0f ? std::sqrt(d2) : 1.0f;
+}
+
 /// Queries at, near and far from photons, with few and many, against looking at every photon. Returns the number of wrong ones.
 int wrong_answers(PhotonMap const& map, std::vector<Vec3> const& places, Cloud const& cloud, int queries,
                   std::uint64_t seed) {
@@ -148,6 +156,19 @@ std::string bytes_of(PhotonMap const& map) {
     return bytes;
 }
 
+/// What a map says in the order in which it says it: that of its nodes and cells.
+std::vector<std::uint32_t> answers(PhotonMap const& map, std::vector<Vec3> const& places) {
+    std::vector<std::uint32_t> found;
+    NearestPhotons room;
+    float const radius = radius_for(places);
+    for (std::size_t i = 0; i < places.size(); i += places.size() / 20) {
+        map.within(places[i], radius, [&](std::uint32_t index, float) { found.push_back(index); });
+        map.nearest(places[i], 30, 2 * radius, room);
+        for (FoundPhoton const& f : room.found) found.push_back(f.index);
+    }
+    return found;
+}
+
 }  // namespace
 
 TEST_CASE("a photon map finds what looking at every photon finds: 10^5 queries") {
@@ -157,6 +178,8 @@ TEST_CASE("a photon map finds what looking at every photon finds: 10^5 queries")
         auto const places = places_of(cloud, 997, 1);
         PhotonMap const map(photons_at(places));
         CHECK(wrong_answers(map, places, cloud, queries, 2) == 0);
+        PhotonMap const grid(photons_at(places), radius_for(places));
+        CHECK(wrong_answers(grid, places, cloud, queries / 8, 2) == 0);
     }
 }
 
@@ -170,10 +193,17 @@ TEST_CASE("photon maps of every small size, and of many photons") {
             PhotonMap const map(photons_at(places));
             CHECK(map.size() == n);
             CHECK(wrong_answers(map, places, cloud, 40, 4) == 0);
+            for (float factor : {0.1f, 1.0f, 100.0f}) {
+                PhotonMap const grid(photons_at(places), factor * radius_for(places));
+                CHECK(grid.size() == n);
+                CHECK(wrong_answers(grid, places, cloud, 20, 4) == 0);
+            }
         }
         auto const places = places_of(cloud, static_cast<std::size_t>(test::samples(150000, 2000000)), 5);
         PhotonMap const map(photons_at(places));
         CHECK(wrong_answers(map, places, cloud, 12, 6) == 0);
+        PhotonMap const grid(photons_at(places), radius_for(places));
+        CHECK(wrong_answers(grid, places, cloud, 12, 6) == 0);
     }
 }
 
@@ -181,15 +211,17 @@ TEST_CASE("every photon is in the map, once") {
     for (Cloud const& cloud : kClouds) {
         CAPTURE(cloud.name);
         auto const places = places_of(cloud, 30001, 7);
-        PhotonMap const map(photons_at(places));
-        std::vector<bool> seen(places.size(), false);
-        int wrong = 0;
-        for (std::size_t i = 0; i < map.size(); ++i) {
-            auto const which = static_cast<std::size_t>(map[i].power()[0] + 0.5f) - 1;
-            wrong += !(which < places.size() && !seen[which] && map[i].p() == places[which]);
-            if (which < places.size()) seen[which] = true;
+        for (float radius : {0.0f, radius_for(places)}) {
+            PhotonMap const map(photons_at(places), radius);
+            std::vector<bool> seen(places.size(), false);
+            int wrong = map.size() != places.size();
+            for (std::size_t i = 0; i < map.size(); ++i) {
+                auto const which = static_cast<std::size_t>(map[i].power()[0] + 0.5f) - 1;
+                wrong += !(which < places.size() && !seen[which] && map[i].p() == places[which]);
+                if (which < places.size()) seen[which] = true;
+            }
+            CHECK(wrong == 0);
         }
-        CHECK(wrong == 0);
     }
 }
 
@@ -197,49 +229,67 @@ TEST_CASE("a photon map is the same on any number of threads") {
     tbb::global_control const more(tbb::global_control::max_allowed_parallelism, 8);
     for (Cloud const& cloud : kClouds) {
         CAPTURE(cloud.name);
-        auto const photons = photons_at(places_of(cloud, 300000, 8));
-        auto const on = [&](int threads) {
-            PhotonMap map;
-            tbb::task_arena arena(threads);
-            arena.execute([&] { map = PhotonMap(photons); });
-            return map;
-        };
-        PhotonMap const one = on(1);
-        for (int threads : {2, 7}) CHECK(bytes_of(on(threads)) == bytes_of(one));
+        auto const places = places_of(cloud, 200000, 8);
+        auto const photons = photons_at(places);
+        for (float radius : {0.0f, radius_for(places)}) {
+            auto const on = [&](int threads) {
+                PhotonMap map;
+                tbb::task_arena arena(threads);
+                arena.execute([&] { map = PhotonMap(photons, radius); });
+                return map;
+            };
+            PhotonMap const one = on(1);
+            for (int threads : {2, 7}) {
+                PhotonMap const other = on(threads);
+                CHECK(bytes_of(other) == bytes_of(one));
+                CHECK(answers(other, places) == answers(one, places));
+            }
+        }
     }
 }
 
 TEST_CASE("odd questions") {
     auto const places = places_of(kClouds[0], 1000, 9);
-    PhotonMap const map(photons_at(places));
-    NearestPhotons room;
-    Vec3 const p{0.5f, 0.5f, 0.5f};
     float const nan = std::numeric_limits<float>::quiet_NaN();
-    SUBCASE("k = 0") { CHECK(nearest(map, p, 0, kInfinity, room).d2.empty()); }
-    SUBCASE("k is the largest number") {
-        CHECK(nearest(map, p, ~0u, kInfinity, room).d2 == all_distances(places, p));
-    }
-    SUBCASE("no radius, and none that is one") {
-        for (float radius : {0.0f, -1.0f, nan, -kInfinity, 1e-30f}) {
-            CHECK(within(map, places[0], radius).d2.empty());
-            CHECK(nearest(map, places[0], 5, radius, room).d2.empty());
+    for (float for_radius : {0.0f, 0.1f, 1e-5f, 10.0f, nan, kInfinity}) {
+        CAPTURE(for_radius);
+        PhotonMap const map(photons_at(places), for_radius);
+        NearestPhotons room;
+        Vec3 const p{0.5f, 0.5f, 0.5f};
+        {  // k = 0
+            CHECK(nearest(map, p, 0, kInfinity, room).d2.empty());
         }
-    }
-    SUBCASE("at no place") {
-        for (Vec3 const q :
-             {Vec3{nan, 0, 0}, Vec3{0, nan, 0}, Vec3{0, 0, nan}, Vec3{kInfinity, 0, 0}, Vec3(-kInfinity)}) {
-            CHECK(within(map, q, kInfinity).d2.empty());
-            CHECK(nearest(map, q, 5, kInfinity, room).d2.empty());
+        {  // k is the largest number
+
+            CHECK(nearest(map, p, ~0u, kInfinity, room).d2 == all_distances(places, p));
         }
-    }
-    SUBCASE("everywhere") { CHECK(within(map, p, kInfinity).d2 == all_distances(places, p)); }
-    SUBCASE("an answer replaces the one before") {
-        nearest(map, p, 400, kInfinity, room);
-        CHECK(room.found.size() == 400);
-        nearest(map, p, 3, kInfinity, room);
-        CHECK(room.found.size() == 3);
-        nearest(PhotonMap(), p, 3, kInfinity, room);
-        CHECK(room.found.empty());
+        {  // no radius, and none that is one
+
+            for (float radius : {0.0f, -1.0f, nan, -kInfinity, 1e-30f}) {
+                CHECK(within(map, places[0], radius).d2.empty());
+                CHECK(nearest(map, places[0], 5, radius, room).d2.empty());
+            }
+        }
+        {  // at no place
+
+            for (Vec3 const q : {Vec3{nan, 0, 0}, Vec3{0, nan, 0}, Vec3{0, 0, nan}, Vec3{kInfinity, 0, 0},
+                                 Vec3(-kInfinity)}) {
+                CHECK(within(map, q, kInfinity).d2.empty());
+                CHECK(nearest(map, q, 5, kInfinity, room).d2.empty());
+            }
+        }
+        {  // everywhere
+            CHECK(within(map, p, kInfinity).d2 == all_distances(places, p));
+        }
+        {  // an answer replaces the one before
+
+            nearest(map, p, 400, kInfinity, room);
+            CHECK(room.found.size() == 400);
+            nearest(map, p, 3, kInfinity, room);
+            CHECK(room.found.size() == 3);
+            nearest(PhotonMap(), p, 3, kInfinity, room);
+            CHECK(room.found.empty());
+        }
     }
 }
 
@@ -257,8 +307,11 @@ TEST_CASE("photons at places that are not finite are left out") {
 TEST_CASE("a photon map needs 48 bytes a photon") {
     for (Cloud const& cloud : kClouds) {
         CAPTURE(cloud.name);
-        PhotonMap const map(photons_at(places_of(cloud, 100000, 12)));
-        CHECK(map.bytes() < 48 * map.size());
+        auto const places = places_of(cloud, 100000, 12);
+        for (float radius : {0.0f, 1e-6f, radius_for(places)}) {
+            PhotonMap const map(photons_at(places), radius);
+            CHECK(map.bytes() < 48 * map.size() + 1000);
+        }
     }
     CHECK(PhotonMap().bytes() == 0);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -17,6 +18,12 @@ namespace nephroid {
 typedef float Float8 __attribute__((vector_size(32)));
 
 inline Float8 all8(float x) { return Float8{x, x, x, x, x, x, x, x}; }
+
+inline Float8 load8(float const* from) {
+    Float8 lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
 
 /// Bit i: lane i of a is less than lane i of b; not set where one is NaN.
 inline std::uint32_t less8(Float8 a, Float8 b) {

@@ -30,6 +30,7 @@ class NearestPhotons {
 
   private:
     friend class PhotonTree;
+    friend class PhotonMap;
 
     /// Begins a search for k > 0 of photons with squared distance < distance2.
     void begin(std::size_t k, float distance2);

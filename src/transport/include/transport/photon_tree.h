@@ -30,11 +30,12 @@ class PhotonTree {
         return points_.capacity() * sizeof(Points8) + nodes_.capacity() * sizeof(Boxes8);
     }
 
-    /// Calls f(place in the order, squared distance) for each photon with squared distance < distance2.
+    /// Calls f(first place, squared distances) for eight photons that follow each other in the order, for all eights that may hold
+    /// some with squared distance < distance2.
     template <class F>
-    void within(Vec3 p, float distance2, F&& f) const;
-    /// The k nearest of those with squared distance < distance2.
-    void nearest(Vec3 p, std::uint32_t k, float distance2, NearestPhotons& out) const;
+    void eights_within(Vec3 p, float distance2, F&& f) const;
+    /// Adds what may be among the nearest to `out`, which says how near that is.
+    void nearest(Vec3 p, NearestPhotons& out) const;
 
   private:
     static constexpr std::uint32_t kMostLevels = 11;  // 8^11 leaves are more than 2^32 photons
@@ -46,7 +47,7 @@ class PhotonTree {
 };
 
 template <class F>
-void PhotonTree::within(Vec3 p, float distance2, F&& f) const {
+void PhotonTree::eights_within(Vec3 p, float distance2, F&& f) const {
     if (levels_ == 0) return;
     Points8 const at = all8(p);
     Float8 const most = all8(distance2);
@@ -65,10 +66,7 @@ void PhotonTree::within(Vec3 p, float distance2, F&& f) const {
         }
         each_bit(near, [&](std::uint32_t i) {
             std::uint32_t const block = (8 * node + i) * kLeafBlocks;
-            for (std::uint32_t b = block; b < block + kLeafBlocks; ++b) {
-                Float8 const d2 = points_[b].distance2(at);
-                each_bit(less8(d2, most), [&](std::uint32_t lane) { f(8 * b + lane, d2[lane]); });
-            }
+            for (std::uint32_t b = block; b < block + kLeafBlocks; ++b) f(8 * b, points_[b].distance2(at));
         });
     }
 }
