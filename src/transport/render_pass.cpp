@@ -80,7 +80,10 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
                     "the crop window holds no pixel of the picture; give x0,y0,x1,y1 inside the resolution");
     RayStats uncounted;
     if (world.encloses()) interiors_ = interiors_at(world, camera_.position(), uncounted);
-    plan_ = make_photon_plan(*this);
+    if (auto plan = make_photon_plan(*this)) {
+        plan_ = plan;
+        find_radii(*this, *plan);
+    }
 }
 
 Film RenderJob::make_film() const {

@@ -6,12 +6,12 @@
 #pragma once
 
 #include "film/film.h"
-#include "transport/light_class.h"
 #include "math/frame.h"
 #include "model/material.h"
 #include "sampling/path_sampler.h"
 #include "sampling/warp.h"
 #include "transport/interiors.h"
+#include "transport/light_class.h"
 #include "transport/render_pass.h"
 #include "world/world.h"
 
