@@ -236,7 +236,7 @@ struct Nanoflann final : Structure {
 
 // --- measuring --------------------------------------------------------------------------------------------------------------
 struct Options {
-    std::vector<std::size_t> photons{100000, 1000000};
+    std::vector<std::size_t> photons{100000};
     int repetitions = 5;
     std::string only;
 };
