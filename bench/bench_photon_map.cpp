@@ -164,7 +164,7 @@ struct Cloud {
         return false;
     }
 };
-/// The k nearest within a radius, as a heap: for many k far quicker than nanoflann's own sorted list.
+/// The k nearest within a radius, as a heap.
 class HeapSet {
   public:
     using DistanceType = float;
