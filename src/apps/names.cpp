@@ -94,6 +94,8 @@ SettingWords words_of(Settings const& s) {
     return words;
 }
 
+std::vector<std::string> source_names(World const&) { return {}; }
+
 std::uint64_t samples_of_a_pass(SettingWords const& words) {
     auto const found = words.find(kSamplesOfAPass);
     std::uint64_t n = 1;

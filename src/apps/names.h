@@ -3,8 +3,10 @@
 
 #include "film/film.h"
 #include "scene/settings.h"
+#include "world/world.h"
 
 #include <string>
+#include <vector>
 
 namespace nephroid::cli {
 
@@ -17,5 +19,8 @@ SettingWords photon_words(Integrator const& integrator);
 SettingWords words_of(Settings const& settings);
 /// … and back: samples of a pixel in each of its passes.
 std::uint64_t samples_of_a_pass(SettingWords const& words);
+
+/// Of the lights that photons are counted by, in that order; shorter where names are not known.
+std::vector<std::string> source_names(World const& world);
 
 }  // namespace nephroid::cli
