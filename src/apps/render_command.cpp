@@ -1,3 +1,4 @@
+#include "asked_settings.h"
 #include "checkpoint_guard.h"
 #include "commands.h"
 #include "console.h"
@@ -38,30 +39,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(std::string const& message) { throw Error(ErrorKind::Input, message); }
 
-/// Numbers between separators, all of the text or nothing.
-template <class T>
-std::vector<T> numbers(std::string const& option, std::string const& text, char separator,
-                       std::size_t count) {
-    std::vector<T> out;
-    char const* p = text.data();
-    char const* const end = p + text.size();
-    while (p < end) {
-        T v{};
-        auto const r = std::from_chars(p, end, v);
-        if (r.ec != std::errc{}) break;
-        out.push_back(v);
-        p = r.ptr;
-        if (p < end && *p == separator && p + 1 < end)
-            ++p;
-        else
-            break;
-    }
-    if (p != end || out.size() != count)
-        refuse(
-            fmt::format("{} {}: expected {} numbers with '{}' between them", option, text, count, separator));
-    return out;
-}
-
 /// "90", "90s", "5m", "2h".
 double seconds_of(std::string const& text) {
     double v = 0;
@@ -75,36 +52,6 @@ double seconds_of(std::string const& text) {
 
 double since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-}
-
-Settings settings_of(RenderOptions const& o, Scene const& scene) {
-    Settings s = scene.settings;
-    if (!o.integrator.empty()) set_integrator(s, o.integrator);
-    for (std::string const& set : o.sets) apply_override(s, set);
-    if (!o.size.empty()) {
-        auto const v = numbers<int>("--size", o.size, 'x', 2);
-        if (v[0] < 1 || v[1] < 1) refuse(fmt::format("--size {}: both sides must be at least 1", o.size));
-        s.film.resolution = {v[0], v[1]};
-        s.film.crop.reset();
-    }
-    if (!o.crop.empty()) {
-        auto const v = numbers<int>("--crop", o.crop, ',', 4);
-        Vec2i const r = s.film.resolution;
-        if (v[0] < 0 || v[1] < 0 || v[0] >= v[2] || v[1] >= v[3] || v[2] > r.x || v[3] > r.y)
-            refuse(
-                fmt::format("--crop {}: not x0,y0,x1,y1 with x0 < x1 and y0 < y1 inside the picture of {}x{}",
-                            o.crop, r.x, r.y));
-        s.film.crop = std::array<int, 4>{v[0], v[2], v[1], v[3]};
-    }
-    if (!o.color.empty()) {
-        s.color = o.color == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
-        s.color_given = true;
-    }
-    if (o.seed) s.seed = *o.seed;
-    if (o.spp) s.spp = *o.spp;
-    if (o.aovs) s.film.aovs = true;
-    if (o.full_float) s.film.half_float = false;
-    return s;
 }
 
 /// Far beyond what anyone renders, and sums of two such numbers still fit.
