@@ -21,6 +21,10 @@ Settings photon_settings(Settings const& settings) {
     return s;
 }
 
+ShownMap shown_map(std::string const& name) {
+    return name == "global" ? ShownMap::Global : name == "caustic" ? ShownMap::Caustic : ShownMap::Both;
+}
+
 std::vector<ShotKind> shots_of(ShownMap map) {
     if (map == ShownMap::Global) return {ShotKind::Global};
     if (map == ShownMap::Caustic) return {ShotKind::Caustic};

@@ -4,6 +4,7 @@
 #include "transport/shooting.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace nephroid::cli {
@@ -13,6 +14,8 @@ Settings photon_settings(Settings const& settings);
 
 /// Which maps are looked at.
 enum class ShownMap : std::uint8_t { Global, Caustic, Both };
+/// "global", "caustic" or "both".
+ShownMap shown_map(std::string const& name);
 std::vector<ShotKind> shots_of(ShownMap map);
 
 /// Linear sRGB of a photon's power, W. Of four wavelengths alone it may lie outside of what sRGB can show, and be negative there.

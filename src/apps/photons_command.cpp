@@ -18,10 +18,6 @@ namespace nephroid::cli {
 
 namespace {
 
-ShownMap map_of(std::string const& name) {
-    return name == "global" ? ShownMap::Global : name == "caustic" ? ShownMap::Caustic : ShownMap::Both;
-}
-
 void check_files(PhotonsOptions const& o, Scene const& scene) {
     std::size_t const most = o.paths ? 2 : 1;
     if (o.outputs.size() > most)
@@ -71,7 +67,7 @@ void say_written(std::string const& file) {
 void write_photons(RenderJob const& job, PhotonsOptions const& o, std::string const& file) {
     PhotonCloud cloud;
     Wavelengths const lambda = job.pass_wavelengths(o.pass);
-    for (ShotKind const kind : shots_of(map_of(o.map))) {
+    for (ShotKind const kind : shots_of(shown_map(o.map))) {
         std::size_t const before = cloud.size();
         std::uint64_t const paths = paths_of_pass(job, kind);
         for (std::uint64_t i = 0; i < paths; ++i)
@@ -88,7 +84,7 @@ void write_photons(RenderJob const& job, PhotonsOptions const& o, std::string co
 
 void write_paths(RenderJob const& job, PhotonsOptions const& o, std::string const& file) {
     PathLines lines;
-    for (ShotKind const kind : shots_of(map_of(o.map))) {
+    for (ShotKind const kind : shots_of(shown_map(o.map))) {
         std::uint64_t const paths = paths_of_pass(job, kind);
         std::uint64_t const shown = std::min(paths, static_cast<std::uint64_t>(*o.paths));
         for (std::uint64_t i = 0; i < shown; ++i) lines.add(trace_light_path(job, kind, o.pass, i, paths));

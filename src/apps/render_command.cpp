@@ -10,6 +10,7 @@
 #include "names.h"
 #include "outputs.h"
 #include "overrides.h"
+#include "photon_overlay.h"
 #include "photon_statistics.h"
 #include "progress.h"
 #include "read/read.h"
@@ -288,6 +289,11 @@ int run(RenderOptions const& o) {
     develop.exposure = o.exposure;
     develop.in_a_hurry = interrupted;
     develop.metadata = metadata(job, film, stats);
+    Image overlay;
+    if (draws(o.overlay) && pictures && !interrupted) {
+        overlay = draw_photons(RenderJob(world, photon_settings(settings)), passes.begin, o.overlay);
+        develop.over = &overlay;
+    }
     for (std::string const& error :
          write_outputs(outputs, film, develop, [&](std::string const& text) { log.warning(text); }))
         log.error(error);
