@@ -75,7 +75,8 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
     app.add_option("--resume", o.resume, "go on from this checkpoint (or film)");
     app.add_option("--exposure", o.exposure, "stops, for 8-bit pictures")->check(finite_number(false));
     app.add_flag("--aovs", o.aovs,
-                 "layers of the first hit in EXR files: albedo, normals, position, depth, material");
+                 "layers in EXR files: albedo, normals, position, depth, material of the first hit; "
+                 "direct, caustic, indirect and specular light; radius and number of photons");
     app.add_flag("--float", o.full_float, "EXR channels as 32-bit floats");
     app.add_flag("--quiet", o.quiet, "print errors and results only");
     app.add_option("--log", o.log, "json: progress and statistics as JSON lines on stderr")

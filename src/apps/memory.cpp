@@ -72,9 +72,9 @@ std::uint64_t left_in_control_group() {
     }
 }
 
-/// What encoding a film takes at most, per pixel (film/develop.cpp, image/exr_write.cpp): six or twenty planes as floats,
-/// and once more as halves.
-constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 110;
+/// What encoding a film takes at most, per pixel (film/develop.cpp, image/exr_write.cpp): six or 34 planes as floats,
+/// and most of them once more as halves.
+constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 190;
 
 }  // namespace
 

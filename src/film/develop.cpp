@@ -60,22 +60,38 @@ void add_channel(ExrFile& file, Film const& film, std::string name, ExrChannel::
 
 double ratio(double sum, double weight) { return weight != 0 ? sum / weight : 0; }
 
+constexpr std::array<char const*, kLightClasses> kLightLayers{"direct", "caustic", "indirect", "specular"};
+
+/// Photon estimates are in the sums: some integrator with photons made them.
+bool has_estimates(Film const& film) {
+    bool found = false;
+    for_each_pixel(film, [&](int x, int y) { found = found || film.aov(x, y).estimates > 0; });
+    return found;
+}
+
 void add_aovs(ExrFile& file, Film const& film, ExrChannel::Type type) {
-    using Triple = std::array<double, 3> AovSums::*;
-    auto const over_all = [&](std::string const& layer, std::string const& letters, Triple triple) {
+    auto const over_all = [&](std::string const& layer, std::string const& letters, auto const& sums) {
         for (std::size_t c = 0; c < 3; ++c)
             add_channel(file, film, layer + "." + letters[c], type, [&](int x, int y) {
-                return ratio((film.aov(x, y).*triple)[c], film.pixel(x, y).weight);
+                return ratio(sums(film.aov(x, y))[c], film.pixel(x, y).weight);
             });
     };
-    over_all("albedo", "RGB", &AovSums::albedo);
-    over_all("N", "XYZ", &AovSums::geometric_normal);
-    over_all("Ns", "XYZ", &AovSums::shading_normal);
+    over_all("albedo", "RGB", [](AovSums const& s) { return s.albedo; });
+    over_all("N", "XYZ", [](AovSums const& s) { return s.geometric_normal; });
+    over_all("Ns", "XYZ", [](AovSums const& s) { return s.shading_normal; });
+    for (std::size_t i = 0; i < kLightClasses; ++i)
+        over_all(kLightLayers[i], "RGB", [i](AovSums const& s) { return s.light[i]; });
     for (std::size_t c = 0; c < 3; ++c)
         add_channel(file, film, std::string("P.") + "XYZ"[c], ExrChannel::Type::Float,
                     [&](int x, int y) { return ratio(film.aov(x, y).position[c], film.aov(x, y).hits); });
     add_channel(file, film, "Z", ExrChannel::Type::Float,
                 [&](int x, int y) { return ratio(film.aov(x, y).depth, film.aov(x, y).hits); });
+    if (has_estimates(film)) {
+        add_channel(file, film, "radius", ExrChannel::Type::Float,
+                    [&](int x, int y) { return ratio(film.aov(x, y).radius, film.aov(x, y).estimates); });
+        add_channel(file, film, "photons", ExrChannel::Type::Float,
+                    [&](int x, int y) { return ratio(film.aov(x, y).photons, film.aov(x, y).estimates); });
+    }
     ExrChannel& id = file.channels.emplace_back();
     id.name = "material.id";
     id.type = ExrChannel::Type::Uint;

@@ -30,13 +30,18 @@ void add(PixelSums& a, PixelSums const& b) {
 }
 
 void add(AovSums& a, AovSums const& b) {
-    auto const& [albedo, shading_normal, geometric_normal, position, depth, hits, pass, material] = b;
+    auto const& [albedo, shading_normal, geometric_normal, position, depth, hits, light, radius, photons,
+                 estimates, pass, material] = b;
     add(a.albedo, albedo);
     add(a.shading_normal, shading_normal);
     add(a.geometric_normal, geometric_normal);
     add(a.position, position);
     a.depth += depth;
     a.hits += hits;
+    for (std::size_t i = 0; i < light.size(); ++i) add(a.light[i], light[i]);
+    a.radius += radius;
+    a.photons += photons;
+    a.estimates += estimates;
     if (pass < a.material_pass) a.material_pass = pass, a.material = material;
 }
 
@@ -98,15 +103,23 @@ std::string difference(FilmHeader const& a, FilmHeader const& b) {
 }
 
 void Film::add_aov(int x, int y, std::uint64_t pass, AovSample const& sample, float weight) {
-    bool const finite = std::isfinite(weight) && is_finite(sample.albedo) &&
-                        is_finite(sample.shading_normal) && is_finite(sample.geometric_normal) &&
-                        is_finite(sample.position) && std::isfinite(sample.depth);
+    bool const finite =
+        std::isfinite(weight) && is_finite(sample.albedo) && is_finite(sample.shading_normal) &&
+        is_finite(sample.geometric_normal) && is_finite(sample.position) && std::isfinite(sample.depth) &&
+        std::all_of(sample.light.begin(), sample.light.end(), [](Vec3 v) { return is_finite(v); }) &&
+        std::isfinite(sample.radius) && std::isfinite(sample.photons);
     if (!finite) return;
     AovSums& sums = aov(x, y);
     double const w = static_cast<double>(weight);
     add_scaled(sums.albedo, sample.albedo, w);
     add_scaled(sums.shading_normal, sample.shading_normal, w);
     add_scaled(sums.geometric_normal, sample.geometric_normal, w);
+    for (std::size_t i = 0; i < kLightClasses; ++i) add_scaled(sums.light[i], sample.light[i], w);
+    if (sample.estimated) {
+        sums.radius += std::abs(w) * static_cast<double>(sample.radius);
+        sums.photons += std::abs(w) * static_cast<double>(sample.photons);
+        sums.estimates += std::abs(w);
+    }
     if (!sample.hit) return;
     add_scaled(sums.position, sample.position, std::abs(w));
     sums.depth += std::abs(w) * static_cast<double>(sample.depth);

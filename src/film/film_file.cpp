@@ -12,7 +12,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr char const* kVersion = "2";
+constexpr char const* kVersion = "3";
 std::string const kPrefix = "film.";
 std::string const kWords = "nephroid.option ";
 

@@ -17,8 +17,11 @@ inline constexpr std::array kPixelWords{
     "square.B", "cross.R", "cross.G", "cross.B", "weight_square", "samples",
 };
 inline constexpr std::array kAovWords{
-    "albedo.R", "albedo.G", "albedo.B", "Ns.X", "Ns.Y", "Ns.Z", "N.X",           "N.Y",
-    "N.Z",      "P.X",      "P.Y",      "P.Z",  "Z",    "hits", "material.pass",
+    "albedo.R",   "albedo.G",   "albedo.B",   "Ns.X",       "Ns.Y",       "Ns.Z",
+    "N.X",        "N.Y",        "N.Z",        "P.X",        "P.Y",        "P.Z",
+    "Z",          "hits",       "direct.R",   "direct.G",   "direct.B",   "caustic.R",
+    "caustic.G",  "caustic.B",  "indirect.R", "indirect.G", "indirect.B", "specular.R",
+    "specular.G", "specular.B", "radius",     "photons",    "estimates",  "material.pass",
 };  // and material.id, 32 bits
 
 // The structs have no padding before their words end, so that word k lies at 8 k bytes.

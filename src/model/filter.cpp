@@ -170,6 +170,36 @@ FilterSample FilterSampler::sample(Vec2 u) const {
         });
 }
 
+FilterPixel FilterSampler::choose_pixel(Vec2 raster, Vec2 u) const {
+    // f(x, y) = f(x, 0) f(0, y) / f(0, 0): axis by axis.
+    auto const choose = [](float at, float reach, float number, auto&& f, int& pixel) {
+        int const first = static_cast<int>(std::ceil(at - 0.5f - reach));
+        int const last = static_cast<int>(std::floor(at - 0.5f + reach));
+        auto const value = [&](int i) { return f(static_cast<float>(i) + 0.5f - at); };
+        float sum = 0;
+        for (int i = first; i <= last; ++i) sum += std::abs(value(i));
+        if (!(sum > 0.0f)) return 0.0f;
+        float left = number * sum;
+        float sign = 0;
+        for (int i = first; i <= last; ++i) {
+            float const v = value(i);
+            if (v == 0.0f) continue;
+            pixel = i;
+            sign = v > 0.0f ? 1.0f : -1.0f;
+            left -= std::abs(v);
+            if (left < 0.0f) break;
+        }
+        return sign * sum;
+    };
+    FilterPixel chosen;
+    auto const along_x = [&](float d) { return evaluate(filter_, {d, 0}); };
+    auto const along_y = [&](float d) { return evaluate(filter_, {0, d}); };
+    float const x = choose(raster.x, radius_.x, u.x, along_x, chosen.pixel.x);
+    float const y = choose(raster.y, radius_.y, u.y, along_y, chosen.pixel.y);
+    chosen.weight = x * y / (evaluate(filter_, {0, 0}) * integral_);
+    return chosen;
+}
+
 float FilterSampler::pdf(Vec2 offset) const {
     return match(
         filter_,

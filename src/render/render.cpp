@@ -204,7 +204,7 @@ class Loop {
     }
 
     [[nodiscard]] std::uint64_t rejected_rays() const {
-        std::uint64_t n = 0;
+        std::uint64_t n = result_.photons.rays.rejected;
         for (RayStats const& s : stats_) n += s.rejected;
         return n;
     }

@@ -1,10 +1,68 @@
 #include "irradiance.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
 namespace nephroid {
 
-IrradianceMap::IrradianceMap(World const&, PhotonMap const&, EstimateRule const&, RayStats&) {}
-std::size_t IrradianceMap::size() const { return 0; }
-std::size_t IrradianceMap::bytes() const { return 0; }
-Spectrum IrradianceMap::at(Vec3, Vec3) const { return {}; }
+namespace {
+
+constexpr std::size_t kEvery = 4;    // Christensen's choice
+constexpr std::size_t kChunk = 256;  // places; what chunks return is added in their order
+constexpr float kSameNormal = 0.7f;
+
+struct ChunkSums {
+    double radii = 0;
+    RayStats rays;
+};
+
+}  // namespace
+
+IrradianceMap::IrradianceMap(World const& world, PhotonMap const& map, EstimateRule const& rule,
+                             RayStats& stats)
+    : radius_(rule.radius) {
+    std::size_t const n = (map.size() + kEvery - 1) / kEvery;
+    if (n == 0) return;
+    std::vector<Photon> places(n);
+    std::vector<ChunkSums> chunks((n + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
+        NearestPhotons nearest;
+        for (std::size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i) {
+            Photon const& photon = map[i * kEvery];
+            PhotonRecord place;
+            place.p = photon.p();
+            place.n = photon.n();
+            Estimate const e = irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays);
+            place.power = e.radiance;
+            chunks[chunk].radii += static_cast<double>(e.radius);
+            places[i] = Photon(place);
+        }
+    });
+    double radii = 0;
+    for (ChunkSums const& c : chunks) {
+        radii += c.radii;
+        stats.add(c.rays);
+    }
+    typical_radius_ = static_cast<float>(radii / static_cast<double>(n));
+    places_ = PhotonMap(std::move(places));
+}
+
+Spectrum IrradianceMap::at(Vec3 p, Vec3 n, NearestPhotons& nearest) const {
+    // The nearest is nearly always on the same surface; in corners a few more have to be asked.
+    for (std::uint32_t const k : {4u, 32u}) {
+        places_.nearest(p, k, radius_, nearest);
+        FoundPhoton const* best = nullptr;
+        for (FoundPhoton const& f : nearest.found)
+            if (dot(places_[f.index].n(), n) > kSameNormal &&
+                (!best || f.distance2 < best->distance2 ||
+                 (f.distance2 == best->distance2 && f.index < best->index)))
+                best = &f;
+        if (best) return places_[best->index].power();
+        if (nearest.found.size() < k) break;  // there are no more
+    }
+    return {};
+}
 
 }  // namespace nephroid

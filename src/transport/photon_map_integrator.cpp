@@ -21,9 +21,11 @@ constexpr std::uint32_t kAnyLength = ~0u;  // what maps hold was cut when it was
 /// Light from the maps at the end of a gather ray. Irradiance says what a diffuse surface does with it; others are asked by direction.
 Spectrum from_global_map(PathContext& c, Walk const& walk, Vertex const& v) {
     PhotonMaps const& maps = *c.photons;
-    if (auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf)) {
+    // Precomputed irradiance does not know which of it is the hero's alone.
+    if (auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf); diffuse && !walk.hero_only) {
         Vec3 const n = dot(walk.ray.d, v.hit.s.ng) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
-        return diffuse->reflectance * maps.irradiance.at(v.hit.s.p, n) * kInvPi;  // L = rho E / pi
+        return diffuse->reflectance * maps.irradiance.at(v.hit.s.p, n, *c.nearest) *
+               kInvPi;  // L = rho E / pi
     }
     return reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength).radiance;
 }

@@ -14,11 +14,11 @@ float PhotonPlan::shrunk(float radius, float alpha, std::uint64_t pass) {
     return static_cast<float>(static_cast<double>(radius) * std::exp(0.5 * log_square));
 }
 
-std::shared_ptr<PhotonPlan const> make_photon_plan(RenderJob const& job) {
+std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
     Settings const& s = job.settings();
     std::uint64_t const pixels =
         static_cast<std::uint64_t>(s.film.resolution.x) * static_cast<std::uint64_t>(s.film.resolution.y);
-    return match(s.integrator, [&](auto const& i) -> std::shared_ptr<PhotonPlan const> {
+    return match(s.integrator, [&](auto const& i) -> std::shared_ptr<PhotonPlan> {
         if constexpr (requires { i.shooting; }) {
             auto plan = std::make_shared<PhotonPlan>();
             PhotonShooting const& shooting = i.shooting;
@@ -29,10 +29,8 @@ std::shared_ptr<PhotonPlan const> make_photon_plan(RenderJob const& job) {
             plan->aim = Aim(job.world());
             plan->caustic_paths = plan->aim.casts() ? count(shooting.caustic_paths, plan->global_paths) : 0;
             float const given = i.estimates.radius, given_caustic = i.estimates.caustic_radius;
-            plan->global_radius = given > 0 ? given : automatic_radius(job, *plan, false);
-            plan->caustic_radius = given_caustic > 0 ? given_caustic
-                                   : given > 0       ? given
-                                                     : automatic_radius(job, *plan, true);
+            plan->global_radius = given;
+            plan->caustic_radius = given_caustic > 0 ? given_caustic : given;
             return plan;
         } else {
             return nullptr;

@@ -19,11 +19,11 @@ class PhotonPlan {
     [[nodiscard]] static float shrunk(float radius, float alpha, std::uint64_t pass);
 };
 
-/// Null where the settings' integrator shoots no photons.
-std::shared_ptr<PhotonPlan const> make_photon_plan(RenderJob const& job);
+/// Null where the settings' integrator shoots no photons. Radii that are not given are left 0.
+std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job);
 
-/// Radii that suit the scene, from the pixels' footprints where the camera looks and from how far apart photons land there
-/// (initial_radius.cpp). A pure function of the job; scale-free. `caustic`: of the caustic map.
-float automatic_radius(RenderJob const& job, PhotonPlan const& plan, bool caustic);
+/// Sets radii that are 0 to what suits the scene, by the pixels' footprints where the camera looks and by how far apart photons land
+/// there (automatic_radius.cpp): a pure function of the job, which grows with the scene. The job has to have the plan already.
+void find_radii(RenderJob const& job, PhotonPlan& plan);
 
 }  // namespace nephroid

@@ -7,9 +7,10 @@ namespace {
 constexpr std::uint32_t kAnyLength = ~0u;
 
 /// Radiance of a diffuse surface of the same albedo in the light that was precomputed.
-Spectrum precomputed(PhotonMaps const& maps, Walk const& walk, Vertex const& v) {
+Spectrum precomputed(PathContext& c, Walk const& walk, Vertex const& v) {
+    PhotonMaps const& maps = *c.photons;
     Vec3 const n = dot(walk.ray.d, v.hit.s.ng) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
-    return albedo(v.bsdf, v.wo_local) * maps.irradiance.at(v.hit.s.p, n) * kInvPi;
+    return albedo(v.bsdf, v.wo_local) * maps.irradiance.at(v.hit.s.p, n, *c.nearest) * kInvPi;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ SeenLight show_photons(PhotonView view, int max_depth, PathContext& c, Ray const
                 seen[LightClass::Caustic] +=
                     walk.beta * reflected(c, walk, v, maps.caustic, maps.caustic_rule, kAnyLength).radiance;
             if (view == PhotonView::Radiance)
-                seen[LightClass::Indirect] += walk.beta * precomputed(maps, walk, v);
+                seen[LightClass::Indirect] += walk.beta * precomputed(c, walk, v);
         }
         if (walk.vertex >= static_cast<std::uint32_t>(max_depth) || !scatter(c, walk, v) ||
             !walk.path_class.all_specular())

@@ -20,15 +20,17 @@ void add(std::vector<PhotonCounts>& a, std::vector<PhotonCounts> const& b) {
     for (std::size_t i = 0; i < b.size(); ++i) a[i].add(b[i]);
 }
 
-/// The rule for pass i: radii shrink, numbers of photons do not.
+/// The rule for pass i: what shrinks is the radius, or the share of what the k-th gives.
 EstimateRule rule_of(PhotonEstimates const& e, float first_radius, float alpha, std::uint64_t pass) {
-    return {e.kernel, static_cast<std::uint32_t>(e.nused), PhotonPlan::shrunk(first_radius, alpha, pass),
-            e.edge_correction};
+    float const shrunk = PhotonPlan::shrunk(1.0f, alpha, pass);
+    EstimateRule rule{e.kernel, static_cast<std::uint32_t>(e.nused), first_radius, 1, e.edge_correction};
+    (rule.k == 0 ? rule.radius : rule.shrink) *= shrunk;
+    return rule;
 }
 
 /// One map: shot, and put in order.
 bool make_map(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
-              PrepareControl const& control, PhotonMap& map, PhotonReport& report) {
+              EstimateRule const& rule, PrepareControl const& control, PhotonMap& map, PhotonReport& report) {
     if (paths == 0) return true;
     auto const begun = Clock::now();
     auto shot = shoot(job, kind, pass, paths, control);
@@ -36,7 +38,7 @@ bool make_map(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint
     auto const shot_at = Clock::now();
     add(kind == ShotKind::Caustic ? report.caustic : report.global, shot->by_source);
     report.rays.add(shot->rays);
-    map = PhotonMap(std::move(shot->photons));
+    map = PhotonMap(std::move(shot->photons), rule.k == 0 ? rule.radius : 0);
     report.shooting_seconds += std::chrono::duration<double>(shot_at - begun).count();
     report.building_seconds += since(shot_at);
     return true;
@@ -58,6 +60,7 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
     if (std::holds_alternative<LightPathIntegrator>(job.settings().integrator)) {
         auto image = draw_light_paths(job, i, control, work->report.rays);
         if (!image) return std::nullopt;
+        work->report.bytes = image->bytes();
         work->light_paths = std::make_shared<LightPathImage>(std::move(*image));
         return work;
     }
@@ -74,9 +77,10 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
             if constexpr (requires { integrator.final_gather; }) gathers = integrator.final_gather;
             ShotKind const kind =
                 gathers || integrator.visualize != PhotonView::None ? ShotKind::Global : ShotKind::Indirect;
-            if (!make_map(job, kind, i, plan->global_paths, control, maps->global, work->report) ||
-                !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, control, maps->caustic,
-                          work->report))
+            if (!make_map(job, kind, i, plan->global_paths, maps->global_rule, control, maps->global,
+                          work->report) ||
+                !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, maps->caustic_rule, control,
+                          maps->caustic, work->report))
                 return false;
             auto const begun = Clock::now();
             if constexpr (requires { integrator.final_gather; })

@@ -46,11 +46,17 @@ LightSampling lights_of(Integrator const& integrator) {
     return match(integrator, [](auto const& i) { return i.lights; });
 }
 
-/// The sensor's value of one camera sample, linear sRGB.
-Vec3 sensor_value(RenderJob const& job, Spectrum radiance, Wavelengths const& lambda) {
-    Vec3 rgb = job.sensor()(radiance, lambda);
+/// The sensor's value of one camera sample, linear sRGB, and by class what it is the sum of.
+Vec3 sensor_value(RenderJob const& job, SeenLight const& seen, float weight, Wavelengths const& lambda,
+                  std::array<Vec3, kLightClasses>* by_class) {
+    Vec3 rgb = job.sensor()(seen.total() * weight, lambda);
     float const m = max_component(rgb);
-    if (m > job.settings().film.max_component) rgb *= job.settings().film.max_component / m;
+    float const most = job.settings().film.max_component;
+    float const scale = m > most ? most / m : 1.0f;
+    if (m > most) rgb *= scale;
+    if (by_class && is_finite(rgb))
+        for (std::size_t i = 0; i < kLightClasses; ++i)
+            (*by_class)[i] = job.sensor()(seen.of[i] * weight, lambda) * scale;
     return rgb;
 }
 
@@ -74,7 +80,10 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
                     "the crop window holds no pixel of the picture; give x0,y0,x1,y1 inside the resolution");
     RayStats uncounted;
     if (world.encloses()) interiors_ = interiors_at(world, camera_.position(), uncounted);
-    plan_ = make_photon_plan(*this);
+    if (auto plan = make_photon_plan(*this)) {
+        plan_ = plan;
+        find_radii(*this, *plan);
+    }
 }
 
 Film RenderJob::make_film() const {
@@ -128,8 +137,9 @@ bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y,
         [&](auto const& integrator) {
             return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
         });
-    Vec3 const value = c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
-                                 : sensor_value(job, seen.total() * camera.weight, lambda);
+    Vec3 const value =
+        c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
+                  : sensor_value(job, seen, camera.weight, lambda, wants_aovs ? &aov.light : nullptr);
     if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
     return film.add(x, y, value, f.weight);
 }
@@ -144,8 +154,11 @@ std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const
         // The pass is one sample of every pixel: the sum of what was splatted there.
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
-                auto const drawn = work.light_paths->at(x, y);
-                if (!film.add(x, y, drawn[0] + drawn[1] + drawn[2] + drawn[3], 1)) ++dropped;
+                if (!film.add(x, y, work.light_paths->total(x, y), 1)) ++dropped;
+                if (!film.has_aovs()) continue;
+                AovSample aov;
+                aov.light = work.light_paths->at(x, y);
+                film.add_aov(x, y, passes.begin, aov, 1);
             }
         return dropped;
     }

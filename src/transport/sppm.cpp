@@ -23,10 +23,11 @@ SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovS
                 walk.beta * sample_direct(c, walk, v, true);
         if (!v.is.near_specular) {
             PhotonMaps const& maps = *c.photons;
-            seen[LightClass::Caustic] +=
-                walk.beta * reflected(c, walk, v, maps.caustic, maps.caustic_rule, most).radiance;
-            seen[LightClass::Indirect] +=
-                walk.beta * reflected(c, walk, v, maps.global, maps.global_rule, most).radiance;
+            Estimate const caustic = reflected(c, walk, v, maps.caustic, maps.caustic_rule, most);
+            Estimate const global = reflected(c, walk, v, maps.global, maps.global_rule, most);
+            seen[LightClass::Caustic] += walk.beta * caustic.radiance;
+            seen[LightClass::Indirect] += walk.beta * global.radiance;
+            if (aov) record_estimates(caustic, global, *aov);
         }
         // A delta part of the surface is followed; the rest has been estimated, but for emission that scattering finds (MIS).
         if (!scatter(c, walk, v)) break;

@@ -56,7 +56,22 @@ TexturePoint texture_point(Walk const& walk, SurfaceHit const& hit) {
     return at;
 }
 
-/// What Beer's law leaves of light over a distance in the medium that the path is in.
+/// A boundary inside a body that outranks it.
+bool is_hidden(PathContext const& c, Walk const& walk, Vertex const& v) {
+    Assets const& assets = c.world.assets();
+    return assets.data(v.material).encloses &&
+           walk.interiors.hides(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
+}
+
+/// The hero stands for all four lanes from here on (Wilkie et al. 2014).
+void keep_hero(Walk& walk) {
+    if (walk.hero_only) return;
+    walk.beta = Spectrum(4.0f * walk.beta[0], 0, 0, 0);
+    walk.hero_only = true;
+}
+
+}  // namespace
+
 Spectrum transmittance(PathContext const& c, Interiors const& interiors, float distance) {
     Spectrum const sigma = interiors.absorption(c.world.assets(), c.lambda);
     Spectrum left;
@@ -65,14 +80,6 @@ Spectrum transmittance(PathContext const& c, Interiors const& interiors, float d
     return left;
 }
 
-/// A boundary inside a body that outranks it.
-bool is_hidden(PathContext const& c, Walk const& walk, Vertex const& v) {
-    Assets const& assets = c.world.assets();
-    return assets.data(v.material).encloses &&
-           walk.interiors.hides(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f);
-}
-
-/// The bodies that light along w is in, after leaving v.
 Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w) {
     Interiors in = walk.interiors;
     float const came = dot(walk.ray.d, v.hit.s.ng), goes = dot(w, v.hit.s.ng);
@@ -84,15 +91,6 @@ Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w
         in.cross({v.hit.material, v.material}, inwards);
     return in;
 }
-
-/// The hero stands for all four lanes from here on (Wilkie et al. 2014).
-void keep_hero(Walk& walk) {
-    if (walk.hero_only) return;
-    walk.beta = Spectrum(4.0f * walk.beta[0], 0, 0, 0);
-    walk.hero_only = true;
-}
-
-}  // namespace
 
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance) {
     RayKind const kind = walk.vertex == 0 ? RayKind::Camera : RayKind::Bounce;

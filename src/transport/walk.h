@@ -6,12 +6,12 @@
 #pragma once
 
 #include "film/film.h"
-#include "light_class.h"
 #include "math/frame.h"
 #include "model/material.h"
 #include "sampling/path_sampler.h"
 #include "sampling/warp.h"
 #include "transport/interiors.h"
+#include "transport/light_class.h"
 #include "transport/render_pass.h"
 #include "world/world.h"
 
@@ -29,9 +29,13 @@ namespace dimension {
 inline constexpr std::uint32_t kFilm = 0, kLens = 1, kWavelength = 2;
 // Of a light path instead: which light, where on it, whereto (and towards which caster).
 inline constexpr std::uint32_t kSource = 0, kSourcePoint = 1, kSourceDirection = 2, kCaster = 3;
+// … and, of those that are drawn into the picture, the wavelengths, and the camera as the source sees it.
+inline constexpr std::uint32_t kPathWavelength = 4, kSourceLens = 5, kSourcePixel = 6;
 inline constexpr std::uint32_t kFirstVertex = 8, kPerVertex = 8;
 inline constexpr std::uint32_t kMix = 0, kLightChoice = 1, kLight = 2, kLobe = 3, kDirection = 4,
                                kRoulette = 5;
+// Of a light path's vertex, where no light is sampled.
+inline constexpr std::uint32_t kCameraPixel = kLightChoice, kCameraLens = kLight;
 inline std::uint32_t of(std::uint32_t vertex, std::uint32_t which) {
     return kFirstVertex + kPerVertex * vertex + which;
 }
@@ -128,6 +132,11 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s);
 
 /// Russian roulette (Arvo & Kirk 1990): ends the walk, or makes up for those that were ended.
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette);
+
+/// The bodies that light along w is in, after leaving v.
+Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w);
+/// What Beer's law leaves of light over a distance (scene units) in the medium that is there.
+Spectrum transmittance(PathContext const& c, Interiors const& interiors, float distance);
 
 /// What the layers of the first hit record.
 void record_first_hit(PathContext& c, Walk const& walk, bool scatters, Vertex const& v, AovSample* aov);

@@ -108,7 +108,8 @@ std::optional<LightRay> World::sample_emission(double u_choose, Vec2 u_position,
         u_direction.x = min(2.0f * (back ? u_direction.x - 0.5f : u_direction.x), kOneMinusEpsilon);
     }
     Vec3 const local = square_to_cosine_hemisphere(u_direction);
-    float const direction_pdf = cosine_hemisphere_pdf(local.z) * (emitter.light->two_sided ? 0.5f : 1.0f);
+    float const side = emitter.light->two_sided ? 0.5f : 1.0f;
+    float const direction_pdf = cosine_hemisphere_pdf(local.z) * side;
     if (!(direction_pdf > 0.0f)) return result;
     LightRay& r = result.emplace();
     EmissionSample& e = r.emission;
@@ -121,6 +122,8 @@ std::optional<LightRay> World::sample_emission(double u_choose, Vec2 u_position,
     e.pdf_direction = direction_pdf;
     r.light = chosen.index;
     r.choice = chosen.pmf;
+    r.side = side;
+    r.unseen = emitter.unseen;
     return result;
 }
 

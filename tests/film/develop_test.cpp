@@ -6,6 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cstring>
+#include <limits>
+
 using namespace nephroid;
 
 namespace {
@@ -85,9 +88,11 @@ TEST_CASE("the variance of signed weights predicts the scatter of pixels") {
 TEST_CASE("layers of an EXR file") {
     Film film({4, 3}, {1, 3, 1, 2}, true, test_identity());
     film.add(1, 1, {1, 2, 3}, 1), film.add(1, 1, {3, 2, 1}, 1);
-    AovSample const hit{{0.5f, 0.25f, 1}, {0, 0, 1}, {0, 1, 0}, {7, 8, 9}, 70000, true, 5};
+    AovSample hit{{0.5f, 0.25f, 1}, {0, 0, 1}, {0, 1, 0}, {7, 8, 9}, 70000, true, 5};
+    hit.light = {Vec3{0.5f, 1, 1}, Vec3{0.5f, 0, 1}, Vec3{0, 0, 1}, Vec3{0, 1, 0}};
+    hit.estimated = true, hit.radius = 0.25f, hit.photons = 80000;
     film.add_aov(1, 1, 3, hit, 1);
-    film.add_aov(1, 1, 4, AovSample{}, 1);
+    film.add_aov(1, 1, 4, AovSample{.light = {Vec3{3, 2, 1}}}, 1);
     film.finish_pass(3), film.finish_pass(4);
     ExrFile const file = develop_exr(film, {.metadata = {{"comments", "a test"}}});
     CHECK(file.width == 2);
@@ -109,12 +114,30 @@ TEST_CASE("layers of an EXR file") {
     CHECK(channel(file, "P.X") == 7);  // over the samples that hit
     CHECK(channel(file, "Z") == 70000);
     CHECK(channel(file, "material.id") == 5);
+    CHECK(channel(file, "direct.R") == 1.75);
+    CHECK(channel(file, "caustic.R") == 0.25);
+    CHECK(channel(file, "indirect.B") == 0.5);
+    CHECK(channel(file, "specular.G") == 0.5);
+    for (char const* c : {"R", "G", "B"}) {
+        double sum = 0;
+        for (char const* layer : {"direct.", "caustic.", "indirect.", "specular."})
+            sum += channel(file, std::string(layer) + c);
+        CHECK(sum == channel(file, c));
+    }
+    CHECK(channel(file, "radius") == 0.25);  // over the samples with an estimate
+    CHECK(channel(file, "photons") == 80000);
+    CHECK(file.find("photons")->type == ExrChannel::Type::Float);
     CHECK(channel(file, "material.id", 1) == 0xFFFFFFFFu);
     CHECK(file.find("R")->type == ExrChannel::Type::Half);
     CHECK(file.find("Z")->type == ExrChannel::Type::Float);
     CHECK(develop_exr(film, {.half_float = false}).find("R")->type == ExrChannel::Type::Float);
     Film const plain({4, 3}, {1, 3, 1, 2}, false, {});
     CHECK(develop_exr(plain, {}).channels.size() == 6);
+    // Nobody asked for photons: there are no layers of them.
+    Film const unasked({4, 3}, {1, 3, 1, 2}, true, {});
+    CHECK(develop_exr(unasked, {}).find("direct.G"));
+    CHECK_FALSE(develop_exr(unasked, {}).find("radius"));
+    CHECK_FALSE(develop_exr(unasked, {}).find("photons"));
 
     TestFolder const folder;
     write_picture(folder / "a.exr", film, {.metadata = {{"comments", "a test"}}});
@@ -122,6 +145,31 @@ TEST_CASE("layers of an EXR file") {
     CHECK(back.attributes.at("comments") == "a test");
     CHECK(channel(back, "P.Z") == 9);
     CHECK(back.data_x0 == 1);
+}
+
+TEST_CASE("ways of light are summed as the beauty is, radii by |w|; what is not finite stays out") {
+    Film film({1, 1}, {0, 1, 0, 1}, true, {});
+    for (float const w : {1.5f, -0.5f}) {
+        AovSample sample;
+        sample.light = {Vec3(w + 1), Vec3(2), Vec3(0), Vec3(w)};
+        sample.estimated = true, sample.radius = w + 1, sample.photons = 10;
+        film.add(0, 0, Vec3(2 * w + 3), w);
+        film.add_aov(0, 0, 0, sample, w);
+    }
+    AovSums const before = film.aov(0, 0);
+    AovSample broken;
+    broken.light[2].y = std::numeric_limits<float>::quiet_NaN();
+    film.add_aov(0, 0, 0, broken, 1);
+    broken = AovSample{.radius = std::numeric_limits<float>::infinity()};
+    film.add_aov(0, 0, 0, broken, 1);
+    CHECK(std::memcmp(&before, &film.aov(0, 0), sizeof(AovSums)) == 0);
+    ExrFile const file = develop_exr(film, {.half_float = false});
+    CHECK(channel(file, "direct.R") == 3.5);  // (1.5 * 2.5 - 0.5 * 0.5) / 1
+    CHECK(channel(file, "caustic.R") == 2);
+    CHECK(channel(file, "specular.R") == 2.5);
+    CHECK(channel(file, "R") == 8);
+    CHECK(channel(file, "radius") == 2);  // (1.5 * 2.5 + 0.5 * 0.5) / 2
+    CHECK(channel(file, "photons") == 10);
 }
 
 TEST_CASE("the material is that of the earliest pass, in whatever order passes come") {

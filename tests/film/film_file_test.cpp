@@ -130,9 +130,11 @@ TEST_CASE("truncated and foreign files are refused by name") {
     refused(folder.path, "", ErrorKind::Io);
 
     ExrFile forged = read_exr(folder / "good");
-    forged.attributes["nephroid.film"] = "1";
-    write_exr(folder / "version", forged);
-    refused(folder / "version", "version 1");
+    for (std::string const old : {"1", "2"}) {
+        forged.attributes["nephroid.film"] = old;
+        write_exr(folder / "version", forged);
+        refused(folder / "version", "version " + old);
+    }
     std::pair<char const*, char const*> const lies[] = {
         {"passes", "0:5"}, {"dropped", "99"}, {"rejected", "1"}, {"seed", "8"},
         {"scene", "x"},    {"settings", "x"}, {"aovs", "0"},     {"checksum", "0"}};

@@ -35,7 +35,11 @@ inline void render_test_pass(Film& film, std::uint64_t pass, bool dyadic = false
                                    vec(),
                                    number(),
                                    random() % 3 != 0,
-                                   static_cast<std::uint32_t>(random() % 5)};
+                                   static_cast<std::uint32_t>(random() % 5),
+                                   {vec(), vec(), vec(), vec()},
+                                   random() % 4 != 0,
+                                   number(),
+                                   number()};
             if (film.has_aovs()) film.add_aov(x, y, pass, sample, weight);
         }
     film.add_dropped(pass % 2);

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
+
 using namespace nephroid;
 using namespace nephroid::test;
 
@@ -147,4 +149,40 @@ TEST_CASE("filtered values of a polynomial are exact, negative lobes included") 
         INFO(a);
         CHECK(a);
     }
+}
+
+TEST_CASE("a pixel chosen for a place on the film: all pixels get their filter's value there") {
+    Random r(8);
+    for (auto const& [name, filter] : filters()) {
+        CAPTURE(name);
+        FilterSampler const sampler(filter);
+        Vec2 const reach = radius(filter);
+        for (int i = 0; i < 20; ++i) {
+            Vec2 const at{10 + r.unit(), 20 + r.unit()};
+            // Numbers on a fine grid: what each pixel gets on average.
+            constexpr int kSide = 256;
+            std::map<std::pair<int, int>, double> got;
+            for (int k = 0; k < kSide * kSide; ++k) {
+                Vec2 const u{(static_cast<float>(k % kSide) + 0.5f) / kSide,
+                             (static_cast<float>(k / kSide) + 0.5f) / kSide};
+                FilterPixel const p = sampler.choose_pixel(at, u);
+                got[{p.pixel.x, p.pixel.y}] += static_cast<double>(p.weight) / (kSide * kSide);
+            }
+            for (int y = 10; y < 31; ++y)
+                for (int x = 0; x < 21; ++x) {
+                    Vec2 const offset{static_cast<float>(x) + 0.5f - at.x,
+                                      static_cast<float>(y) + 0.5f - at.y};
+                    bool const inside = std::abs(offset.x) <= reach.x && std::abs(offset.y) <= reach.y;
+                    double const expected =
+                        inside ? static_cast<double>(evaluate(filter, offset) / sampler.integral()) : 0;
+                    REQUIRE(got[{x, y}] == doctest::Approx(expected).epsilon(0.02));
+                }
+        }
+    }
+    // The pixels look at less than the film: what falls between them counts for none.
+    FilterSampler const narrow(BoxFilter{{0.25f, 0.25f}});
+    CHECK(narrow.choose_pixel({10.1f, 10.5f}, {0.5f, 0.5f}).weight == 0);
+    CHECK(narrow.choose_pixel({10.4f, 10.5f}, {0.5f, 0.5f}).weight == doctest::Approx(4));
+    for (float const u : {0.0f, 0x1p-32f, 1 - 0x1p-24f})
+        CHECK(FilterSampler(MitchellFilter{}).choose_pixel({3.3f, 4.4f}, {u, u}).weight != 0);
 }

@@ -4,12 +4,14 @@
 //
 // Progressive estimates are biased by their radius: to first order by r at edges, where part of the disk is empty. So they are taken at
 // r and at r / 2, with the same photons, and extrapolated to 0: 2 E(r/2) - E(r).
-#include "films.h"
 #include "statistics.h"
 
 #include <doctest/doctest.h>
 
+#include "films.h"
+
 #include <algorithm>
+#include <array>
 
 using namespace nephroid;
 using namespace nephroid::test;

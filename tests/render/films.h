@@ -84,7 +84,12 @@ inline Scene read_text(std::string const& text) {
 }
 
 inline std::vector<Integrator> integrators() {
-    return {PathIntegrator{.max_depth = 6}, DirectIntegrator{}, WhittedIntegrator{.max_depth = 6}};
+    return {PathIntegrator{.max_depth = 6},
+            DirectIntegrator{},
+            WhittedIntegrator{.max_depth = 6},
+            PhotonMapIntegrator{.shooting = {.global_paths = 300}, .gather_samples = 2},
+            SppmIntegrator{.shooting = {.global_paths = 300}},
+            LightPathIntegrator{}};
 }
 inline std::vector<Sampler> samplers() {
     return {SobolSampler{}, StratifiedSampler{.x_strata = 2, .y_strata = 3}, IndependentSampler{}};
@@ -113,8 +118,9 @@ inline bool same_aov(AovSums const& a, AovSums const& b) {
     auto const same = [](auto const& x, auto const& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
     return same(a.albedo, b.albedo) && same(a.shading_normal, b.shading_normal) &&
            same(a.geometric_normal, b.geometric_normal) && same(a.position, b.position) &&
-           same(a.depth, b.depth) && same(a.hits, b.hits) && a.material_pass == b.material_pass &&
-           a.material == b.material;
+           same(a.depth, b.depth) && same(a.hits, b.hits) && same(a.light, b.light) &&
+           same(a.radius, b.radius) && same(a.photons, b.photons) && same(a.estimates, b.estimates) &&
+           a.material_pass == b.material_pass && a.material == b.material;
 }
 
 /// Pixels of b's window whose sums or layers differ from a's in any bit; all of them when the passes differ.
@@ -156,8 +162,12 @@ inline double rounding_between(Film const& a, Film const& b) {
             for (std::size_t c = 0; c < 3; ++c) {
                 see(s.albedo[c], t.albedo[c], p.weight_square + n);
                 see(s.shading_normal[c], t.shading_normal[c], p.weight_square + n);
+                for (std::size_t i = 0; i < kLightClasses; ++i)
+                    see(s.light[i][c], t.light[i][c], std::sqrt(n * p.square[c]) + p.weight_square + n);
                 see(s.position[c], t.position[c], 10 * (p.weight_square + n));
             }
+            see(s.radius, t.radius, p.weight_square + n);
+            see(s.photons, t.photons, 100 * (p.weight_square + n));
             see(s.depth, t.depth, 10 * (p.weight_square + n));
             if (s.material != t.material || s.material_pass != t.material_pass) most = 1;
         }

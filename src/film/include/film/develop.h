@@ -27,8 +27,10 @@ Image develop(Film const& film);
 Image develop_variance(Film const& film);
 /// Every layer as EXR channels, named as pbrt-v4 and Mitsuba 3 name theirs: R G B; variance.R .G .B; and with AOVs
 /// albedo.R .G .B, N.X .Y .Z (geometric normal), Ns.X .Y .Z (shading normal), P.X .Y .Z (world position), Z (depth along
-/// the ray), material.id (uint, 0xFFFFFFFF = nothing hit). Variances, positions and depths are floats, for they leave the
-/// range of halves; the rest is half or float as the settings say, and float where a number is too large for a half.
+/// the ray), material.id (uint, 0xFFFFFFFF = nothing hit); the light by its ways, direct caustic indirect specular, each
+/// .R .G .B (together they are R G B); where photons were asked, radius (scene units) and photons of the estimates.
+/// Variances, positions, depths, radii and counts are floats, for they leave the range of halves; the rest is half or float
+/// as the settings say, and float where a number is too large for a half.
 /// The header tells which passes of which render they are.
 ExrFile develop_exr(Film const& film, DevelopSettings const& settings);
 /// Writes by extension: .exr, .png, .jpg/.jpeg, .pfm, .hdr; anything else is Error(Input). Returns the first channels of

@@ -14,7 +14,12 @@
 
 namespace nephroid {
 
-/// What the first hit of a camera path looked like; averaged, except for the material's id.
+/// The light of a picture by its ways from the light to the eye: direct, caustic, indirect, specular, in the order of
+/// transport/light_class.h. Which way is whose is decided there; here they are four parts of a sum.
+inline constexpr std::size_t kLightClasses = 4;
+
+/// What a camera sample knows besides its value: what its first hit looked like, what light came which way, and what photon
+/// estimate it asked for. Averaged, except for the material's id.
 struct AovSample {
     Vec3 albedo{0, 0, 0};
     Vec3 shading_normal{0, 0, 0};
@@ -23,6 +28,11 @@ struct AovSample {
     float depth = 0;  // along the ray from the camera, scene units; 0 where nothing was hit
     bool hit = false;
     std::uint32_t material = 0xFFFFFFFFu;
+    std::array<Vec3, kLightClasses> light{};  // linear sRGB; together the sample's value
+    // The photon estimates at the first surface that asked for any.
+    bool estimated = false;
+    float radius = 0;   // scene units
+    float photons = 0;  // that counted
 };
 
 /// Sums over the samples of one pixel, each of value v and filter weight w.
@@ -36,12 +46,15 @@ struct PixelSums {
 };
 /// Colours and normals are averaged like the beauty: over all samples, those that hit nothing count as 0. Positions and
 /// depths are averaged over the samples that hit something, by |w|: a place between a surface and nothing is no place,
-/// and negative weights would leave the surface.
+/// and negative weights would leave the surface. So are radii and numbers of photons, over the samples that had an estimate.
 struct AovSums {
     std::array<double, 3> albedo{}, shading_normal{}, geometric_normal{};  // sums of w a
     std::array<double, 3> position{};                                      // sum of |w| p over hits
     double depth = 0;                                                      // sum of |w| z over hits
     double hits = 0;                                                       // sum of |w| over hits
+    std::array<std::array<double, 3>, kLightClasses> light{};              // sums of w v
+    double radius = 0, photons = 0;       // sums of |w| r and |w| n over estimates
+    double estimates = 0;                 // sum of |w| over estimates
     std::uint64_t material_pass = ~0ull;  // the earliest pass that hit something …
     std::uint32_t material = 0xFFFFFFFFu;  // … and the material it saw: commutative, unlike "the first added"
 };

@@ -17,6 +17,13 @@ struct FilterSample {
     float weight = 1;
 };
 
+/// A pixel that something at a place of the film counts for, and with which weight: f / probability, normalised as above; 0
+/// where the filters of no pixels reach.
+struct FilterPixel {
+    Vec2i pixel{0, 0};
+    float weight = 0;
+};
+
 /// Not normalised value of the filter at an offset; 0 outside its radius.
 float evaluate(Filter const& filter, Vec2 offset);
 Vec2 radius(Filter const& filter);
@@ -26,6 +33,9 @@ class FilterSampler {
   public:
     explicit FilterSampler(Filter const& filter);
     [[nodiscard]] FilterSample sample(Vec2 u) const;
+    /// One of the pixels whose filters reach `raster`, each as likely as |f| there is large: light that finds the film by
+    /// itself touches one pixel, too. The pixel may lie beyond the picture's edge.
+    [[nodiscard]] FilterPixel choose_pixel(Vec2 raster, Vec2 u) const;
     /// Density of the offset, per square pixel.
     [[nodiscard]] float pdf(Vec2 offset) const;
     /// Integral of the filter.

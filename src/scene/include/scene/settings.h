@@ -167,7 +167,7 @@ struct FilmSettings {
     float max_component =
         kInfinity;  // a sample's largest component is scaled down to this (pbrt's maxcomponentvalue)
     bool half_float = true;
-    bool aovs = false;  // record the layers of the first hit
+    bool aovs = false;  // record layers: the first hit, classes of light, photon estimates
     SourceLocation where;
 };
 

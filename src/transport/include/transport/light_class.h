@@ -36,6 +36,8 @@ struct SeenLight {
 class PathClass {
   public:
     void scatter(bool specular) {
+        if (first_) began_specular_ = specular;
+        first_ = false;
         specular_since_ = specular;
         if (!specular && diffuse_ < 2) ++diffuse_;
     }
@@ -51,6 +53,14 @@ class PathClass {
         next.scatter(specular);
         return next.ends_on_light();
     }
+    /// The class of a path from a light that scatters once more, and is seen there by the eye.
+    [[nodiscard]] LightClass seen_after(bool specular) const {
+        PathClass whole = *this;
+        whole.scatter(specular);
+        if (whole.diffuse_ == 0) return LightClass::Specular;
+        if (whole.diffuse_ > 1) return LightClass::Indirect;
+        return whole.began_specular_ ? LightClass::Caustic : LightClass::Direct;
+    }
     /// No D so far: what a path from the eye sees in mirrors, or one from a light that makes caustics.
     [[nodiscard]] bool all_specular() const { return diffuse_ == 0; }
     /// The last scattering was S.
@@ -59,6 +69,7 @@ class PathClass {
   private:
     std::uint8_t diffuse_ = 0;
     bool specular_since_ = false;
+    bool first_ = true, began_specular_ = false;
 };
 
 }  // namespace nephroid
