@@ -2,6 +2,7 @@
 
 #include "kernel.h"
 
+#include <array>
 #include <cmath>
 
 namespace nephroid {
@@ -76,38 +77,57 @@ bool lopsided(Gathered const& g) {
 float edge_factor(World const& world, Place const& at, EstimateRule const& rule, Gathered const& g,
                   RayStats& stats) {
     if (!rule.edge_correction || g.photons == 0 || !lopsided(g)) return 1.0f;
-    float const share = covered_share(world, at.p, at.n, g.radius, rule.kernel, stats);
-    // Below an eighth the place is no corner of a wall any more, and photons tell too little.
-    return share > 0.125f ? 1.0f / share : 1.0f;
+    Coverage const covered = coverage(world, at.p, at.n, g.radius, rule.kernel, stats);
+    // Photons that lie where there is no surface came from beyond a wall: they are not to be made more of. Below an eighth the
+    // place is no corner of a wall any more, and photons tell too little.
+    if (covered.share <= 0.125f || dot(covered.centre, g.offsets) < 0.0f) return 1.0f;
+    return 1.0f / covered.share;
 }
 
 }  // namespace
 
-float covered_share(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats) {
+Coverage coverage(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats) {
     Frame const frame = frame_from_z(n);
-    float const height = kPlate * radius;
+    Vec3 const up = kPlate * radius * n;
     SurfaceHit hit;
-    auto const is_surface = [&](float r, float phi) {
-        Vec3 const foot = p + r * radius * (std::cos(phi) * frame.x + std::sin(phi) * frame.y);
-        return world.intersect({foot + height * n, -n}, 2.0f * height, RayKind::Bounce, stats, hit) &&
-               abs_dot(hit.s.ng, n) >= kSameNormal;
+    // Seen from above, and no wall stands between: the floor that goes on under a box gets no light.
+    auto const is_surface = [&](Vec3 offset) {
+        return world.intersect({p + offset + up, -up}, 2.0f, RayKind::Bounce, stats, hit) &&
+               abs_dot(hit.s.ng, n) >= kSameNormal &&
+               !world.intersect({p + up, offset}, 1.0f, RayKind::Bounce, stats, hit);
     };
+    auto const at = [&](float r, float turn) {
+        float const phi = kTwoPi * turn;
+        return r * radius * (std::cos(phi) * frame.x + std::sin(phi) * frame.y);
+    };
+    constexpr int kRim = 8;
     bool whole = true;
-    constexpr int kRim = 8, kPoints = 64;
     for (int i = 0; i < kRim && whole; ++i)
-        whole = is_surface(0.97f, kTwoPi * (static_cast<float>(i) + 0.5f) / static_cast<float>(kRim));
-    if (whole) return 1.0f;
-    // A sunflower: rings of equal area, turned by the golden angle.
-    return with_kernel(kernel, [&](auto const& k) {
+        whole = is_surface(at(0.97f, (static_cast<float>(i) + 0.5f) / kRim));
+    Coverage c{1, {0, 0, 0}};
+    if (whole) return c;
+    // Points of a net (Hammersley's) by squared radius and angle: 8 rings of equal area by 8 sectors, and no two points at one radius
+    // or in one direction. In a half or a quarter of the disk every ring has exactly so many, all of which weigh the same.
+    static constexpr std::array<int, 8> kReversed{0, 4, 2, 6, 1, 5, 3, 7};
+    with_kernel(kernel, [&](auto const& k) {
         float all = 0, found = 0;
-        for (int i = 0; i < kPoints; ++i) {
-            float const r2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(kPoints);
-            float const weight = k(r2);
-            all += weight;
-            if (is_surface(std::sqrt(r2), 2.3999632f * static_cast<float>(i))) found += weight;
+        for (std::size_t ring = 0; ring < 8; ++ring) {
+            float const weight = k((static_cast<float>(ring) + 0.5f) / 8.0f);
+            for (std::size_t sector = 0; sector < 8; ++sector) {
+                auto const place = [](std::size_t coarse, std::size_t fine) {
+                    return (static_cast<float>(8 * coarse) + static_cast<float>(kReversed[fine]) + 0.5f) /
+                           64.0f;
+                };
+                Vec3 const offset = at(std::sqrt(place(ring, sector)), place(sector, ring));
+                all += weight;
+                if (!is_surface(offset)) continue;
+                found += weight;
+                c.centre += offset;
+            }
         }
-        return found / all;
+        c.share = found / all;
     });
+    return c;
 }
 
 Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap const& map,

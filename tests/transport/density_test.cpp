@@ -272,3 +272,149 @@ TEST_CASE("corners of the data: no photons, all of them at one point, a radius o
     // The k-th alone is no estimate.
     CHECK(probe.reflected(heap, rule(Kernel::Cone, 1, 1), down_at(0, 0)).radiance.is_black());
 }
+
+namespace {
+/// A floor in z = 0 turned by `degrees` about the origin, which is its middle, a point of its edge or its corner; with walls
+/// along its edges or without.
+enum class Spot { Middle, Edge, Corner };
+struct Bounded {
+    Quad floor;
+    std::vector<Quad> walls;
+};
+Bounded bounded(Spot spot, double degrees, bool walls) {
+    auto const turned = [&](float x, float y) {
+        double const c = std::cos(degrees * kPiD / 180), s = std::sin(degrees * kPiD / 180);
+        return Vec3(c * x - s * y, s * x + c * y, 0);
+    };
+    float const x0 = spot == Spot::Middle ? -1 : 0, y0 = spot == Spot::Corner ? 0 : -1;
+    Bounded b;
+    b.floor = {turned(x0, y0), turned(1 - x0, 0), turned(0, 1 - y0)};
+    if (walls && spot != Spot::Middle) b.walls.push_back({b.floor.origin, b.floor.edge_v, {0, 0, 1}});
+    if (walls && spot == Spot::Corner) b.walls.push_back({b.floor.origin, {0, 0, 1}, b.floor.edge_u});
+    return b;
+}
+}  // namespace
+
+TEST_CASE("edges and corners: the raw estimate is a half or a quarter, the corrected one is right to 2%") {
+    for (bool const walls : {false, true})
+        for (Spot const spot : {Spot::Edge, Spot::Corner}) {
+            double const raw = spot == Spot::Edge ? 0.5 : 0.25;
+            for (double const degrees : {0.0, 17.0, 45.0, 71.0, 133.0}) {
+                Bounded const b = bounded(spot, degrees, walls);
+                Scene s;
+                MaterialId const grey = diffuse(s, 0.5f);
+                add(s, b.floor, grey);
+                for (Quad const& wall : b.walls) add(s, wall, grey);
+                World const world = compile(std::move(s));
+                Probe probe(world);
+                struct Case {
+                    EstimateRule how;
+                    Mean raw, corrected;
+                };
+                std::vector<Case> cases;
+                for (Kernel const kernel : kKernels) {
+                    for (float const radius : {0.1f, 0.3f, 0.6f})
+                        cases.push_back({rule(kernel, 0, radius), {}, {}});
+                    for (std::uint32_t const k : {60u, 250u}) cases.push_back({rule(kernel, k, 1), {}, {}});
+                }
+                Random random(1);
+                for (int i = 0; i < samples(40, 400); ++i) {
+                    std::vector<Photon> photons;
+                    scatter_over(photons, random, b.floor, kUp, 20000);
+                    for (Quad const& wall : b.walls)
+                        scatter_over(photons, random, wall, normalize(cross(wall.edge_u, wall.edge_v)), 5000);
+                    PhotonMap const map(std::move(photons));
+                    for (Case& c : cases) {
+                        c.how.edge_correction = false;
+                        c.raw.add(
+                            static_cast<double>(probe.irradiance(map, c.how, {0, 0, 0}, kUp).radiance[0]));
+                        c.how.edge_correction = true;
+                        c.corrected.add(
+                            static_cast<double>(probe.irradiance(map, c.how, {0, 0, 0}, kUp).radiance[0]));
+                    }
+                }
+                for (Case const& c : cases) {
+                    INFO(std::string(spot == Spot::Edge ? "edge" : "corner"),
+                         std::string(walls ? " with walls" : ""), " at ", degrees, " degrees, ",
+                         name_of(c.how.kernel), ", k = ", c.how.k, ", radius ", c.how.radius);
+                    double const noise = 3.5 * c.raw.standard_error() / raw;
+                    CHECK(c.raw.mean() / raw == doctest::Approx(1).epsilon(noise));
+                    CHECK(c.corrected.mean() == doctest::Approx(1).epsilon(0.02 + noise));
+                }
+            }
+        }
+}
+
+TEST_CASE("what of a disk is surface: edges at any distance and angle, against sums over a fine grid") {
+    World const world = floor_world(1);
+    RayStats stats;
+    double worst = 0;
+    for (Kernel const kernel : kKernels)
+        for (float const distance : {0.0f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
+            // The share of the disk nearer than `distance` in one direction, and with a second edge across.
+            double all = 0, half_plane = 0, quadrant = 0;
+            with_kernel(kernel, [&](auto const& k) {
+                constexpr int kFine = 1000;
+                for (int i = 0; i < kFine; ++i)
+                    for (int j = 0; j < kFine; ++j) {
+                        float const x = (2 * static_cast<float>(i) + 1) / kFine - 1;
+                        float const y = (2 * static_cast<float>(j) + 1) / kFine - 1;
+                        if (x * x + y * y >= 1) continue;
+                        auto const w = static_cast<double>(k(x * x + y * y));
+                        all += w;
+                        if (x < distance) half_plane += w;
+                        if (x < distance && y < 0) quadrant += w;
+                    }
+            });
+            constexpr float kRadius = 0.3f;
+            auto const off = [&](Vec3 p, double exact) {
+                double const found =
+                    static_cast<double>(coverage(world, p, kUp, kRadius, kernel, stats).share);
+                worst = std::max(worst, std::abs(found / exact - 1));
+                INFO(name_of(kernel), ", ", distance, " from an edge: ", found, ", exactly ", exact);
+                CHECK(std::abs(found / exact - 1) < (distance == 0 ? 0.005 : 0.06));
+            };
+            float const x = 1 - distance * kRadius;
+            off({x, 0, 0}, half_plane / all);
+            off({-x, 0, 0}, half_plane / all);
+            off({0, x, 0}, half_plane / all);
+            off({x, 1, 0}, quadrant / all);
+            off({-x, -1, 0}, quadrant / all);
+        }
+    MESSAGE("the share is off by ", worst, " at most");
+    CHECK(coverage(world, {0, 0, 0}, kUp, 0.3f, Kernel::Box, stats).share == 1);
+}
+
+TEST_CASE("beside a box that stands on a floor: corrected, and not where light comes from beyond a wall") {
+    Scene s;
+    MaterialId const grey = diffuse(s, 0.5f);
+    add(s, floor_quad(1), grey);
+    add(s, Box{{0, -1, 0}, {1, 1, 1}}, grey);
+    World const boxed = compile(std::move(s));
+    Scene t;
+    add(t, floor_quad(1), diffuse(t, 0.5f));
+    add(t, Quad{{0, -1, 0}, {0, 2, 0}, {0, 0, 1}}, diffuse(t, 0.5f));
+    World const walled = compile(std::move(t));
+    Probe beside_box(boxed), beside_wall(walled);
+    Mean box, lit, dark, dark_raw;
+    Random random(1);
+    for (int i = 0; i < samples(200, 1000); ++i) {
+        std::vector<Photon> photons;
+        scatter_over(photons, random, Quad{{-1, -1, 0}, {1, 0, 0}, {0, 2, 0}}, kUp, 5000);
+        PhotonMap const map(std::move(photons));
+        EstimateRule how = rule(Kernel::Epanechnikov, 0, 0.3f);
+        auto const at = [&](Probe& probe, float x) {
+            return static_cast<double>(probe.irradiance(map, how, {x, 0, 0}, kUp).radiance[0]);
+        };
+        how.edge_correction = true;
+        box.add(at(beside_box, -0.003f));
+        lit.add(at(beside_wall, -0.003f));
+        dark.add(at(beside_wall, 0.003f));
+        how.edge_correction = false;
+        dark_raw.add(at(beside_wall, 0.003f));
+    }
+    CHECK(box.mean() == doctest::Approx(1).epsilon(0.02));
+    CHECK(lit.mean() == doctest::Approx(1).epsilon(0.02));
+    // The floor on the wall's dark side does borrow from beyond, within the radius; no more with the correction than without.
+    CHECK(dark.mean() == dark_raw.mean());
+}
