@@ -25,7 +25,7 @@ struct Gathered {
     Vec3 offsets{0, 0, 0};  // their sum, for the centroid
 };
 
-/// Calls use(photon, K / r^2) for every photon that counts (eq. 1).
+/// Calls use(photon, normal it landed on, K / r^2) for every photon that counts (eq. 1).
 template <class Use>
 Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule const& rule,
                          NearestPhotons& nearest, Use&& use) {
@@ -38,10 +38,11 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
             if (off_plane > kPlate * g.radius) return;
-            float const facing = dot(photon.n(), at.n);
+            Vec3 const n = photon.n();
+            float const facing = dot(n, at.n);
             if ((at.both_sides ? std::abs(facing) : facing) < kSameNormal) return;
             float const inverse = 1.0f / (g.radius * g.radius);
-            if (use(photon, kernel(d2 * inverse) * inverse)) {
+            if (use(photon, n, kernel(d2 * inverse) * inverse)) {
                 ++g.photons;
                 g.offsets += offset;
             }
@@ -137,25 +138,29 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
                    v.is.spreads_through};
     bool const same_normals = v.hit.s.ns == v.hit.s.ng;
     auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf);
-    Gathered const g = for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, float weight) {
-        if (photon.bounces() + 1 + walk.vertex > most_bounces) return false;
-        // Both stand for all four lanes by the hero's: once is enough.
-        if (walk.hero_only && photon.hero_only()) weight *= 0.25f;
-        if (diffuse && same_normals) {
-            e.radiance += photon.power() * weight;
+    Gathered const g =
+        for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, Vec3 n, float weight) {
+            if (photon.bounces() + 1 + walk.vertex > most_bounces) return false;
+            // Both stand for all four lanes by the hero's: once is enough.
+            if (walk.hero_only && photon.hero_only()) weight *= 0.25f;
+            if (diffuse && same_normals) {
+                e.radiance += photon.power() * weight;
+                return true;
+            }
+            Vec3 const wi = photon.wi();
+            if (!same_normals) {
+                // Flux came by the geometric normal where it landed, scattering goes by the shading normal (Veach 1997, 5.3). A facet beside
+                // may face the light quite differently. Photons know their normals to a degree: no cosine is less certain than that.
+                constexpr float kOneDegree = 0.0175f, kSameFacet = 0.9996f;
+                float const cosine =
+                    abs_dot(n, at.n) > kSameFacet ? abs_dot(wi, at.n) : max(abs_dot(wi, n), kOneDegree);
+                if (!(cosine > 0.0f)) return false;
+                weight *= abs_dot(wi, v.hit.s.ns) / cosine;
+            }
+            e.radiance +=
+                evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
             return true;
-        }
-        Vec3 const wi = photon.wi();
-        if (!same_normals) {
-            // Flux goes by the geometric normal, scattering by the shading normal (Veach 1997, 5.3).
-            float const cosine = abs_dot(wi, v.hit.s.ng);
-            if (!(cosine > 0.0f)) return false;
-            weight *= abs_dot(wi, v.hit.s.ns) / cosine;
-        }
-        e.radiance +=
-            evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
-        return true;
-    });
+        });
     if (diffuse && same_normals) e.radiance *= diffuse->reflectance * kInvPi;
     e.radiance *= edge_factor(c.world, at, rule, g, c.stats);
     e.radius = g.radius;
@@ -167,7 +172,7 @@ Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, Es
                     NearestPhotons& nearest, RayStats& stats) {
     Estimate e;
     Place const at{p, n};
-    Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, float weight) {
+    Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, Vec3, float weight) {
         e.radiance += photon.power() * weight;
         return true;
     });

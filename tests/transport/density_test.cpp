@@ -418,3 +418,41 @@ TEST_CASE("beside a box that stands on a floor: corrected, and not where light c
     // The floor on the wall's dark side does borrow from beyond, within the radius; no more with the correction than without.
     CHECK(dark.mean() == dark_raw.mean());
 }
+
+TEST_CASE("shading normals: photons weigh by the facet that they landed on") {
+    // A flat roof, smoothed: facets tilted by 5 degrees to either side, shaded as one level plane. Light that grazes one facet falls
+    // three times as densely on the other.
+    float const slope = std::tan(radians(5));
+    TriangleMesh roof = rectangle({-1, -1, -slope}, {0, -1, 0}, {0, 1, 0}, {-1, 1, -slope});
+    TriangleMesh const other = rectangle({0, -1, 0}, {1, -1, -slope}, {1, 1, -slope}, {0, 1, 0});
+    roof.p.insert(roof.p.end(), other.p.begin(), other.p.end());
+    roof.triangles.insert(roof.triangles.end(), {{4, 5, 6}, {4, 6, 7}});
+    roof.n.assign(8, kUp);
+    Scene s;
+    add(s, roof, diffuse(s, 0.5f));
+    World const world = compile(std::move(s));
+    Probe probe(world);
+    for (double const degrees : {0.0, 60.0, 80.0}) {
+        Vec3 const wi(std::sin(degrees * kPiD / 180), 0, std::cos(degrees * kPiD / 180));
+        std::vector<Photon> photons;
+        Random random(1);
+        for (float const side : {-1.0f, 1.0f}) {
+            Quad const facet{{side < 0 ? -0.5f : 0.0f, -0.5f, side < 0 ? -0.5f * slope : 0.0f},
+                             {0.5f, 0, -side * 0.5f * slope},
+                             {0, 1, 0}};
+            Vec3 const n = normalize(cross(facet.edge_u, facet.edge_v));
+            std::size_t const first = photons.size();
+            scatter_over(photons, random, facet, n, 100000, dot(wi, n));
+            for (std::size_t i = first; i < photons.size(); ++i) {
+                PhotonRecord r = landed(photons[i].p(), n, photons[i].power()[0]);
+                r.wi = wi;
+                photons[i] = Photon(r);
+            }
+        }
+        PhotonMap const map(std::move(photons));
+        double const found = static_cast<double>(
+            probe.reflected(map, rule(Kernel::Box, 0, 0.4f), down_at(-1e-4f, 0)).radiance[0]);
+        INFO("light from ", degrees, " degrees");
+        CHECK(found == doctest::Approx(0.5 / kPiD * std::cos(degrees * kPiD / 180)).epsilon(0.03));
+    }
+}
