@@ -456,3 +456,145 @@ TEST_CASE("shading normals: photons weigh by the facet that they landed on") {
         CHECK(found == doctest::Approx(0.5 / kPiD * std::cos(degrees * kPiD / 180)).epsilon(0.03));
     }
 }
+
+namespace {
+/// Photons of all bounces shown as they are, with no help from elsewhere; alpha = 1 leaves the radius as it is.
+SppmIntegrator shown(Kernel kernel, float radius, int paths, float alpha = 1) {
+    SppmIntegrator p;
+    p.alpha = alpha;
+    p.visualize = PhotonView::Global;
+    p.estimates.kernel = kernel;
+    p.estimates.radius = radius;
+    p.shooting.global_paths = paths;
+    p.shooting.caustic_paths = 0;
+    return p;
+}
+/// A light of 1 W/sr one above a floor, from which it sends only what is needed: a cone that is a little wider than a disk of
+/// radius .2 there.
+World below_a_light(float reflectance) {
+    Scene s;
+    add(s, floor_quad(0.5f), diffuse(s, reflectance));
+    SpotLight l;
+    l.from = {0, 0, 1};
+    l.to = {0, 0, 0};
+    l.cone_angle = 0.21f;  // atan .2 = .1974
+    l.cone_delta = 0;
+    s.add(Light{l, {}, {}});
+    look_at_point(s, {0, 0, 2}, {0, 0, 0});
+    return compile(std::move(s));
+}
+/// E in the middle, averaged over a disk of radius r, where it is 1.
+double averaged(double r) { return 2 * (1 - 1 / std::sqrt(1 + r * r)) / (r * r); }
+}  // namespace
+
+TEST_CASE("the exact biased value: below a point light, averaged over the disk") {
+    CHECK(averaged(0.2) == doctest::Approx(0.970966).epsilon(1e-6));
+    World const world = below_a_light(0.5f);
+    Settings const how = point_settings(shown(Kernel::Box, 0.2f, 2000), 1, 1);
+    check_mean(world, how, 2, 0.5 / kPiD * averaged(0.2));
+}
+
+TEST_CASE("progressive: the bias of 1000 passes is the mean of theirs") {
+    double expected = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i)
+        expected += averaged(static_cast<double>(PhotonPlan::shrunk(0.2f, 2.0f / 3, i))) / 1000;
+    CHECK(expected == doctest::Approx(0.995090).epsilon(1e-6));
+    World const world = below_a_light(0.5f);
+    Settings const how = point_settings(shown(Kernel::Box, 0.2f, samples(100, 2000), 2.0f / 3), 1, 1);
+    auto const means = measure(world, how, 1000);
+    auto const a = agrees(means[0][1], 0.5 / kPiD * expected, full() ? 0.001 : 0.002);
+    INFO(a);
+    CHECK(a);
+    CHECK_FALSE(agrees(means[0][1], 0.5 / kPiD, 0.002).equal);  // this well one sees that it is not 1
+}
+
+TEST_CASE("progressive: the squared error falls by the number of passes to the power of -2/3") {
+    // Squared bias and variance of the mean of n passes, exactly: a pass's photons are so many draws that hit the disk or do not.
+    constexpr int kPaths = 40;
+    double const cone = 2 * kPiD * (1 - std::cos(0.21));
+    auto const squared_error = [&](std::uint64_t n) {
+        double mean = 0, variance = 0;
+        for (std::uint64_t i = 0; i < n; ++i) {
+            auto const r = static_cast<double>(PhotonPlan::shrunk(0.2f, 2.0f / 3, i));
+            double const hits = averaged(r) * kPiD * r * r / cone;
+            mean += averaged(r);
+            variance += hits * (1 - hits) / kPaths * std::pow(cone / (kPiD * r * r), 2);
+        }
+        auto const passes = static_cast<double>(n);
+        return std::pow(mean / passes - 1, 2) + variance / (passes * passes);
+    };
+    CHECK(std::log(squared_error(1 << 18) / squared_error(1 << 12)) / std::log(64.0) ==
+          doctest::Approx(-2.0 / 3).epsilon(0.01));
+    World const world = below_a_light(0.5f);
+    Settings how = point_settings(shown(Kernel::Box, 0.2f, kPaths, 2.0f / 3), 1, 1);
+    how.sampler = IndependentSampler{};  // well spread photons do better than the law
+    std::vector<std::uint64_t> counts{16, 64, 256};
+    if (full()) counts = {128, 256, 512, 1024, 2048};
+    std::vector<double> squares(counts.size());
+    int const batches = samples(100, 1500);
+    RayStats stats;
+    for (int batch = 0; batch < batches; ++batch) {
+        how.seed = static_cast<std::uint64_t>(batch);
+        RenderJob const job(world, how);
+        Film film = job.make_film();
+        std::uint64_t done = 0;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            for (; done < counts[i]; ++done) render_pass(job, done, film, stats);
+            PixelSums const& p = film.pixel(0, 0);
+            double const error = p.rgb[1] / p.weight / (0.5 / kPiD) - 1;
+            squares[i] += error * error / batches;
+        }
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        INFO("passes: ", counts[i]);
+        // Squares of so many draws; 3.5 standard deviations.
+        CHECK(squares[i] / squared_error(counts[i]) ==
+              doctest::Approx(1).epsilon(3.5 * std::sqrt(2.0 / batches)));
+    }
+    if (full()) {
+        double const slope =
+            std::log(squares.back() / squares.front()) /
+            std::log(static_cast<double>(counts.back()) / static_cast<double>(counts.front()));
+        MESSAGE("slope ", slope);
+        CHECK(std::abs(slope + 2.0 / 3) < 0.05);
+    }
+}
+
+TEST_CASE("photons on a floor whose normals are tilted by 30 degrees: rho E cos 30 / pi") {
+    Scene s;
+    TriangleMesh floor = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    floor.n.assign(4, Vec3{0.5f, 0, std::sqrt(0.75f)});
+    add(s, floor, diffuse(s, 0.6f));
+    DistantLight d;
+    d.from = {0, 0, 1};
+    d.to = {0, 0, 0};
+    s.add(Light{d, {}, {}});
+    look_parallel(s, {0, 0, 2}, {0, 0, -1}, 0.5f);
+    World const w = compile(std::move(s));
+    for (Kernel const kernel : kKernels)
+        check_mean(w, settings(shown(kernel, 0.2f, 4000)), 4, 0.6 * std::cos(kPiD / 6) / kPiD);
+}
+
+TEST_CASE("a room behind a thin wall is black in every estimate of photons") {
+    // A room beside a larger one, a thousandth of the radius of wall between them; the light is in the larger, the camera in the other.
+    Scene s;
+    MaterialId const grey = diffuse(s, 0.5f);
+    add(s, Box{{-1, -1, -1}, {0, 1, 1}}, grey);
+    add(s, Box{{1e-4f, -0.7f, -0.7f}, {1, 0.7f, 0.7f}}, grey);
+    s.add(point_light({-0.3f, 0, 0}, 1));
+    look_around(s, {0.5f, 0.1f, 0.2f});
+    World const dark = compile(std::move(s));
+    for (int const nused : {0, 50}) {
+        SppmIntegrator sppm = shown(Kernel::Epanechnikov, 0.1f, 5000);
+        sppm.estimates.nused = nused;
+        check_mean(dark, settings(sppm, 8, 8), 1, 0.0);
+        sppm.visualize = PhotonView::None;
+        check_mean(dark, settings(sppm, 8, 8), 1, 0.0);
+        PhotonMapIntegrator maps;
+        maps.shooting.global_paths = 5000;
+        maps.estimates.nused = nused;
+        maps.estimates.radius = 0.1f;
+        maps.visualize = PhotonView::Radiance;
+        check_mean(dark, settings(maps, 8, 8), 1, 0.0);
+    }
+}
