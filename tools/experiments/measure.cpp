@@ -66,6 +66,7 @@ Settings with(Settings const& base, std::string const& directives) {
     Settings s = base;
     s.integrator = scene.settings.integrator;
     s.sampler = scene.settings.sampler;
+    s.spp = scene.settings.spp;
     return s;
 }
 

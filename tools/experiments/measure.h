@@ -24,7 +24,8 @@ struct Setup {
 /// Reads and compiles pbrt text; file names count from `folder`.
 Setup prepare(std::string const& pbrt, std::filesystem::path const& folder = ".");
 
-/// `base` with the integrator and the sampler of these pbrt directives, so that what a page quotes is what was run.
+/// `base` with the integrator, the sampler and the samples a pixel of these pbrt directives, so that what a page quotes is what was
+/// run.
 /// Throws Error(Input) when a directive does not mean what it says (a note of the reader's).
 Settings with(Settings const& base, std::string const& directives);
 

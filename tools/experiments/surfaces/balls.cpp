@@ -145,7 +145,7 @@ void write_studs(std::filesystem::path const& path) {
 
 void write_files(Lab const& lab) {
     write_studs(lab.scratch / "studs.png");
-    std::filesystem::copy_file(stage::scenes() / "textures/chart.tga", lab.scratch / "chart.tga",
+    std::filesystem::copy_file(scenes_folder() / "textures/chart.tga", lab.scratch / "chart.tga",
                                std::filesystem::copy_options::overwrite_existing);
     test::MeasuredPlan plan;
     plan.metal.ax = plan.metal.ay = 0.15;
@@ -156,9 +156,9 @@ Setup setup(Lab const& lab, Ball const& ball, int pixels) {
     std::string const core =
         "AttributeBegin\nMaterial \"diffuse\" \"rgb reflectance\" [ 0.7 0.12 0.06 ]\nTranslate 0 0 1.303\n"
         "Shape \"sphere\" \"float radius\" 0.5\nAttributeEnd\n";
-    return stage::faithful(stage::studio(pixels, pixels) + (ball.hollow ? core : "") + ball.before +
-                               ball.material + "\n" + stage::ball_and_plinth(ball.shape),
-                           lab.scratch);
+    return faithful(stage::studio(pixels, pixels) + (ball.hollow ? core : "") + ball.before + ball.material +
+                        "\n" + stage::ball_and_plinth(ball.shape),
+                    lab.scratch);
 }
 
 }  // namespace

@@ -26,14 +26,14 @@ void mesh_figure(Lab const& lab) {
     std::vector<std::vector<std::string>> rows;
     for (std::string const material : {"mirror", "glass"}) {
         Setup const setup =
-            stage::faithful(stage::cornell(pixels) +
-                                "AttributeBegin\nTranslate 278 220 290\nRotate -25 0 1 0\nRotate 20 1 0 "
-                                "0\nScale 66 66 66\n" +
-                                (material == "mirror" ? "Material \"conductor\" \"spectrum eta\" "
-                                                        "\"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\""
-                                                      : "Material \"dielectric\"") +
-                                "\nShape \"plymesh\" \"string filename\" \"meshes/knot.ply\"\nAttributeEnd\n",
-                            stage::scenes());
+            faithful(cornell(pixels) +
+                         "AttributeBegin\nTranslate 278 220 290\nRotate -25 0 1 0\nRotate 20 1 0 "
+                         "0\nScale 66 66 66\n" +
+                         (material == "mirror" ? "Material \"conductor\" \"spectrum eta\" "
+                                                 "\"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\""
+                                               : "Material \"dielectric\"") +
+                         "\nShape \"plymesh\" \"string filename\" \"meshes/knot.ply\"\nAttributeEnd\n",
+                     scenes_folder());
         Reference const reference = reference_by_samples(setup, directives, many);
         SheetRow row{material, {}, exposure_for(reference.picture, 0.95)};
         for (std::uint64_t const samples : {10, 50}) {

@@ -40,9 +40,9 @@ void pictures(Lab const& lab) {
     std::vector<std::vector<std::string>> rows;
     for (Way const& w : ways()) {
         Setup const setup =
-            stage::faithful(stage::cornell(lab.pixels(100)) + "AttributeBegin\nTranslate 278 170 300\n" +
-                                w.material + "\nShape \"sphere\" \"float radius\" 150\nAttributeEnd\n",
-                            stage::scenes());
+            faithful(cornell(lab.pixels(100)) + "AttributeBegin\nTranslate 278 170 300\n" + w.material +
+                         "\nShape \"sphere\" \"float radius\" 150\nAttributeEnd\n",
+                     scenes_folder());
         row.pictures.push_back(render_picture(setup, directives, passes, 1));
         labels.push_back(w.label);
         rows.push_back({w.label + ": `" + w.material + "`", number(mean(row.pictures.back()))});
@@ -69,7 +69,7 @@ Profile profile(Lab const& lab, std::string const& name, std::string const& mate
                 double (*reflectance)(double cosine)) {
     // One row of pixels, each but its centre: then a pixel is one angle.
     int const n = lab.pixels(60);
-    Setup const setup = stage::faithful(
+    Setup const setup = faithful(
         fmt::format("Option \"string color\" \"rgb\"\nFilm \"rgb\" \"integer xresolution\" {} \"integer "
                     "yresolution\" 1\nPixelFilter \"box\" \"float xradius\" 0.001 \"float yradius\" 0.001\n"
                     "LookAt 0 -4 0  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" [ 0 1 "

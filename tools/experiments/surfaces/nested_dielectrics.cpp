@@ -26,7 +26,7 @@ void slabs(Lab const& lab) {
                 "Shape \"box\" \"point3 lo\" [ {} -50 -50 ] \"point3 hi\" [ {} 50 50 ]\n",
                 absorption, priority, lo, hi);
         };
-        Setup const setup = stage::faithful(
+        Setup const setup = faithful(
             "Option \"string color\" \"rgb\"\nFilm \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" "
             "4\n"
             "LookAt -5 0 0  0 0 0  0 0 1\nCamera \"orthographic\"\nWorldBegin\nLightSource \"infinite\" "
@@ -50,7 +50,7 @@ void nested_dielectrics(Lab const& lab) {
     page.text(
         "`scenes/iced-juice.pbrt`: bodies that overlap, the one of the highest priority being there, and "
         "absorption inside.");
-    Setup setup{stage::prepare_file("iced-juice.pbrt")};
+    Setup setup{prepare_file("iced-juice.pbrt")};
     int const width = lab.pixels(200);
     setup.settings.film.resolution = {width, width * 9 / 8};
     SheetRow row{"", {}, 1};

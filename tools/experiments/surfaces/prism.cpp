@@ -74,7 +74,7 @@ class Arrangement {
                 "2 "
                 "3 5 ] \"point3 P\" [ -2 {0} -2  2 {0} -2  0 {1} -2  -2 {0} 2  2 {0} 2  0 {1} 2 ]\n",
                 -root3 * 2 / 3, root3 * 4 / 3);
-        return stage::faithful(text, ".");
+        return faithful(text, ".");
     }
 
   private:
@@ -178,7 +178,7 @@ void spectra(Lab const& lab) {
 
 void table_top(Lab const& lab) {
     SheetRow row{"", {}, 1};
-    Setup setup{stage::prepare_file("prism.pbrt")};
+    Setup setup{prepare_file("prism.pbrt")};
     int const width = lab.pixels(200);
     setup.settings.film.resolution = {width, width * 3 / 4};
     for (ColorMode const mode : {ColorMode::Spectral, ColorMode::Rgb}) {

@@ -27,7 +27,7 @@ std::string rough(std::string const& material, double u, double v, std::string c
 }
 
 Picture picture_of(Lab const& lab, int side, std::string const& material) {
-    Setup const setup = stage::faithful(stage::studio(side, side) + material + stage::ball(), ".");
+    Setup const setup = faithful(stage::studio(side, side) + material + stage::ball(), ".");
     return render_picture(setup, kPath, lab.passes(160), 1);
 }
 
@@ -93,10 +93,9 @@ void albedos(Lab const& lab, std::string const& what, std::string const& materia
         for (bool const compensated : {false, true}) {
             std::vector<std::string> row{d + (compensated ? ", compensated" : "")};
             for (double const a : kAlphas) {
-                Setup const setup =
-                    stage::faithful(stage::white_sky(lab.pixels(24)) + rough(material, a, a, d, compensated) +
-                                        stage::unit_sphere(),
-                                    ".");
+                Setup const setup = faithful(stage::white_sky(lab.pixels(24)) +
+                                                 rough(material, a, a, d, compensated) + stage::unit_sphere(),
+                                             ".");
                 row.push_back(
                     fixed(stage::over_disk(render_picture(
                               setup, "Integrator \"path\" \"integer maxdepth\" 100\nSampler \"zsobol\"",

@@ -1,31 +1,10 @@
 #include "stage.h"
 
-#include "math/error.h"
-#include "read/read.h"
-
 #include <fmt/format.h>
 
 #include <numbers>
 
 namespace nephroid::experiment::stage {
-
-std::filesystem::path scenes() { return NEPHROID_SCENES; }
-
-namespace {
-
-Setup compiled(Scene scene) {
-    if (!scene.notes.empty()) throw Error(ErrorKind::Input, scene.notes.front().text);
-    Settings const settings = scene.settings;
-    return {compile(std::move(scene)), settings};
-}
-
-}  // namespace
-
-Setup faithful(std::string const& pbrt, std::filesystem::path const& folder) {
-    return compiled(read_pbrt_string(pbrt, "experiment", folder));
-}
-
-Setup prepare_file(std::string const& name) { return compiled(read_scene(scenes() / name)); }
 
 std::string studio(int width, int height) {
     return fmt::format(
@@ -83,13 +62,6 @@ double over_disk(Picture const& p) {
     // Of a square's pixels the disk covers pi / 4; the rest is sky, of radiance 1.
     double const disk = std::numbers::pi / 4;
     return (mean(p) - (1 - disk)) / disk;
-}
-
-std::string cornell(int pixels) {
-    return fmt::format(
-        "Film \"rgb\" \"integer xresolution\" {0} \"integer yresolution\" {0}\n"
-        "Include \"include/cornell-view.pbrt\"\nWorldBegin\nInclude \"include/cornell-room.pbrt\"\n",
-        pixels);
 }
 
 }  // namespace nephroid::experiment::stage

@@ -1,22 +1,12 @@
-// Where materials are shown: a studio with a checkered floor, a lamp, a strip of light and a dim sky; a white sky; and the
-// Cornell box. All as pbrt text; z is up, but in the box, which has its published coordinates.
+// Where materials are shown: a studio with a checkered floor, a lamp, a strip of light and a dim sky; a white sky.
+// All as pbrt text; z is up.
 #pragma once
 
-#include "measure.h"
+#include "scene_files.h"
 
-#include <filesystem>
 #include <string>
 
 namespace nephroid::experiment::stage {
-
-/// The repository's scenes, for meshes and includes.
-std::filesystem::path scenes();
-
-/// prepare(), for scenes that mean what they say: throws Error(Input) with the first note that the reader had.
-Setup faithful(std::string const& pbrt, std::filesystem::path const& folder);
-
-/// The same for one of scenes().
-Setup prepare_file(std::string const& name);
 
 /// The studio up to its lights and floor; what is shown stands on z = 0 around the origin, 2.4 high and wide.
 std::string studio(int width, int height);
@@ -31,8 +21,5 @@ std::string white_sky(int pixels);
 std::string unit_sphere();
 /// The mean over the sphere's disk in such a picture: its albedo for light from everywhere.
 double over_disk(Picture const& p);
-
-/// The empty Cornell box with its camera (folder: scenes()), in what was measured: mm.
-std::string cornell(int pixels);
 
 }  // namespace nephroid::experiment::stage

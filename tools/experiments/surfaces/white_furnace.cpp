@@ -23,7 +23,7 @@ constexpr std::array kAngles{0.0,  10.0, 20.0, 30.0, 40.0, 50.0, 60.0,
 
 /// Only the material of this scene is looked at.
 Setup holder(std::string const& material) {
-    return stage::faithful(
+    return faithful(
         "Option \"string color\" \"rgb\"\nWorldBegin\nLightSource \"infinite\"\n"
         "MakeNamedMaterial \"looked at\" " +
             material + "\nNamedMaterial \"looked at\"\n" + stage::unit_sphere(),

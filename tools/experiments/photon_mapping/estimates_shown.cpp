@@ -1,0 +1,142 @@
+// Estimates from the maps, shown as they are (Figures 20 to 22 of the report).
+#include "runs.h"
+#include "sections.h"
+
+#include "sheet.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::experiment {
+
+namespace {
+
+constexpr int kSamples = 4;  // a pixel: what is shown is the estimate, not edges
+
+std::string show(std::string const& view, std::uint64_t global, std::uint64_t caustic, int k) {
+    return fmt::format(
+        "Integrator \"photonmap\" \"string visualize\" \"{}\" \"integer indirectphotons\" {} \"integer "
+        "causticphotons\" {} \"integer nused\" {}\nSampler \"zsobol\" \"integer pixelsamples\" {}",
+        view, global, caustic, k, kSamples);
+}
+
+std::string ball(std::string const& material, char const* centre) {
+    return fmt::format(
+        "AttributeBegin\nTranslate {}\n{}\nShape \"sphere\" \"float radius\" 100\nAttributeEnd\n", centre,
+        material);
+}
+/// Two balls where those of cornell-spheres.pbrt are, both of one material.
+std::string balls(std::string const& material) {
+    return ball(material, "395 100 370") + ball(material, "175 100 200");
+}
+
+std::vector<std::string> counted(Lab const& lab, std::string const& what, std::uint64_t wanted,
+                                 std::vector<PhotonCounts> const& counts, double seconds) {
+    PhotonCounts const c = total(counts);
+    return {what,
+            thousands(wanted),
+            thousands(c.emitted),
+            thousands(c.stored),
+            number(static_cast<double>(c.stored) / static_cast<double>(c.emitted)),
+            time_taken(lab, seconds)};
+}
+std::vector<std::string> const kCounts{"", "wanted", "emitted", "stored", "stored per path", "time"};
+
+void global_counts(Lab const& lab) {
+    Page& page = lab.page;
+    page.subsection("The global map with 10,000, 50,000 and 500,000 photons");
+    int const n = lab.pixels(200);
+    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    page.text(
+        "The report's Figure 20. The radiance that the global map says is there, at the first surface that "
+        "is not specular: direct light, caustics and all, with nothing sampled. 100 photons an estimate.");
+    page.code(show("global", 100000, 0, 100));
+    SheetRow row{"", {}, 1};
+    std::vector<std::string> labels;
+    std::vector<std::vector<std::string>> rows;
+    for (std::uint64_t const wanted : {10000u, 50000u, 500000u}) {
+        std::uint64_t const photons = lab.quick ? wanted / 50 : wanted;
+        std::uint64_t const paths =
+            paths_that_store(setup, show("global", 1000, 0, 100), ShotKind::Global, photons);
+        Run r = run(setup, show("global", paths, 0, 100), 1);
+        labels.push_back(thousands(wanted) + " photons");
+        rows.push_back(counted(lab, "global map", photons, r.photons.global, r.seconds));
+        row.pictures.push_back(std::move(r.picture));
+    }
+    row.exposure = exposure_for(row.pictures.back(), 0.93);
+    write_sheet(page.file("global.png"), labels, {row});
+    page.image("global.png", "The global map, seen: 10,000, 50,000 and 500,000 photons");
+    page.table(kCounts, rows);
+}
+
+void caustics(Lab const& lab) {
+    Page& page = lab.page;
+    page.subsection("The caustic map: mirror boxes, glass balls, mirror balls");
+    page.text("The report's Figure 21: caustics alone, 60 photons an estimate.");
+    page.code(show("caustic", 0, 100000, 60));
+    int const n = lab.pixels(200);
+    struct Scene {
+        std::string label;
+        Setup setup;
+    };
+    std::vector<Scene> scenes;
+    scenes.push_back({"mirror boxes", sized_file("cornell-mirror-boxes.pbrt", n, n)});
+    scenes.push_back({"glass balls", box_with(balls("Material \"dielectric\" \"float eta\" 1.5"), n)});
+    scenes.push_back(
+        {"mirror balls",
+         box_with(balls("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
+                        "\"metal-Ag-k\""),
+                  n)});
+    std::uint64_t const photons = lab.quick ? 4000 : 200000;
+    std::vector<SheetRow> sheet(1);
+    std::vector<std::string> labels;
+    std::vector<std::vector<std::string>> rows;
+    for (Scene const& s : scenes) {
+        std::uint64_t const paths =
+            paths_that_store(s.setup, show("caustic", 0, 1000, 60), ShotKind::Caustic, photons);
+        Run r = run(s.setup, show("caustic", 0, paths, 60), 1);
+        labels.push_back(s.label);
+        rows.push_back(counted(lab, s.label, photons, r.photons.caustic, r.seconds));
+        sheet[0].pictures.push_back(std::move(r.picture));
+    }
+    sheet[0].exposure = exposure_for(sheet[0].pictures[0], 0.98);
+    write_sheet(page.file("caustics.png"), labels, sheet);
+    page.image("caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls");
+    page.table(kCounts, rows);
+}
+
+void both_maps(Lab const& lab) {
+    Page& page = lab.page;
+    page.subsection("Global, caustic, both");
+    page.text("The report's Figure 22: each map, and their sum; 88 photons an estimate.");
+    page.code(show("global|caustic|both", 50000, 50000, 88));
+    int const n = lab.pixels(200);
+    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    std::uint64_t const photons = lab.quick ? 1000 : 50000;
+    std::string const pilot = show("both", 1000, 1000, 88);
+    std::uint64_t const global = paths_that_store(setup, pilot, ShotKind::Global, photons);
+    std::uint64_t const caustic = paths_that_store(setup, pilot, ShotKind::Caustic, photons);
+    SheetRow row{"", {}, 1};
+    std::vector<std::vector<std::string>> rows;
+    for (std::string const view : {"global", "caustic", "both"}) {
+        Run r = run(setup, show(view, global, caustic, 88), 1);
+        PhotonCounts const g = total(r.photons.global), c = total(r.photons.caustic);
+        rows.push_back({view, thousands(g.stored), thousands(c.stored), number(mean(r.picture)),
+                        time_taken(lab, r.seconds)});
+        row.pictures.push_back(std::move(r.picture));
+    }
+    row.exposure = exposure_for(row.pictures.back(), 0.93);
+    write_sheet(page.file("maps.png"), {"global", "caustic", "both"}, {row});
+    page.image("maps.png", "Global map, caustic map, and both");
+    page.table({"", "global photons stored", "caustic photons stored", "mean radiance", "time"}, rows);
+}
+
+}  // namespace
+
+void estimates_shown(Lab const& lab) {
+    lab.page.section("The maps, seen");
+    global_counts(lab);
+    caustics(lab);
+    both_maps(lab);
+}
+
+}  // namespace nephroid::experiment

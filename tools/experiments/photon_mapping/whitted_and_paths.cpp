@@ -1,0 +1,58 @@
+// Whitted's tracer against path tracing (Figure 16 of the report).
+#include "runs.h"
+#include "sections.h"
+
+#include "sheet.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::experiment {
+
+void whitted_and_paths(Lab const& lab) {
+    Page& page = lab.page;
+    page.section("Whitted against path tracing");
+    page.text(
+        "The report's Figure 16. Whitted's tracer of 1980 knows direct light, mirrors and glass: what lies "
+        "in the shadow of the lamp is black, and so are the ceiling and what glass gathers below it.");
+    struct Way {
+        std::string label, directives;
+        std::uint64_t samples;
+    };
+    std::string const sampler = "\nSampler \"zsobol\"";
+    std::string const path = "Integrator \"path\" \"integer maxdepth\" 16" + sampler;
+    std::vector<Way> const ways{
+        {"whitted, 25", "Integrator \"whitted\" \"integer maxdepth\" 16" + sampler, 25},
+        {"path, 1", path, 1},
+        {"path, 25", path, 25}};
+    page.code("Integrator \"whitted|path\" \"integer maxdepth\" 16" + sampler);
+    int const n = lab.pixels(176);
+    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    std::uint64_t const many = lab.passes(512);
+    Reference const reference = reference_by_samples(setup, path, many);
+    SheetRow row{"", {}, exposure_for(reference.picture, 0.93)};
+    std::vector<std::string> labels;
+    std::vector<std::vector<std::string>> table;
+    for (Way const& w : ways) {
+        Run r = run(setup, w.directives, w.samples);
+        labels.push_back(w.label);
+        table.push_back({w.label + (w.samples > 1 ? " samples a pixel" : " sample a pixel"),
+                         number(mean(r.picture)), percent(relative_rmse(r.picture, reference.picture)),
+                         time_taken(lab, r.seconds)});
+        row.pictures.push_back(std::move(r.picture));
+    }
+    labels.push_back(fmt::format("path, {}", 2 * many));
+    table.push_back({labels.back() + " samples a pixel", number(mean(reference.picture)),
+                     percent(reference.error) + " (estimated)", ""});
+    row.pictures.push_back(reference.picture);
+    write_sheet(page.file("whitted.png"), labels, {row});
+    page.image("whitted.png",
+               "The Cornell box with a silver and a glass ball: Whitted's tracer and path "
+               "tracing");
+    page.table({fmt::format("`scenes/cornell-spheres.pbrt`, {0} × {0}", n), "mean radiance", "error", "time"},
+               table);
+    page.text(
+        "What is left of noise after so many samples of path tracing is the caustic below the glass ball and "
+        "on the wall: there a path from the camera has to meet the lamp by chance.");
+}
+
+}  // namespace nephroid::experiment
