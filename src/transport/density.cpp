@@ -30,8 +30,8 @@ template <class Use>
 Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule const& rule,
                          NearestPhotons& nearest, Use&& use) {
     Gathered g;
-    g.radius = rule.radius;
     if (map.empty()) return g;
+    g.radius = rule.radius;
     auto const sum = [&](auto const& kernel) {
         auto const count = [&](std::uint32_t i, float d2) {
             Photon const& photon = map[i];

@@ -29,7 +29,7 @@ struct EstimateRule {
 };
 struct Estimate {
     Spectrum radiance;          // towards v.wo
-    float radius = 0;           // that was used
+    float radius = 0;           // that was used; 0 where the map is empty
     std::uint32_t photons = 0;  // that counted
 };
 
