@@ -29,7 +29,7 @@ struct EstimateRule {
 };
 struct Estimate {
     Spectrum radiance;          // towards v.wo
-    float radius = 0;           // that was used
+    float radius = 0;           // that was used; 0 where the map is empty
     std::uint32_t photons = 0;  // that counted
 };
 
@@ -51,8 +51,12 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
                     NearestPhotons& nearest, RayStats& stats);
 
-/// The share of the disk about p, weighed by the kernel, that is surface with a normal like n: by probing it with rays (64 of them;
-/// 8 along the rim tell whether the others are needed).
-float covered_share(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats);
+/// How much of the disk about p is surface with a normal like n that p sees: found by probing it with rays (64 places; 8 along the rim
+/// tell whether the others are needed).
+struct Coverage {
+    float share = 1;       // weighed by the kernel
+    Vec3 centre{0, 0, 0};  // of what is there: in its direction, of no particular length; 0 where all is
+};
+Coverage coverage(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats);
 
 }  // namespace nephroid
