@@ -19,16 +19,18 @@ D3 refracted(D3 d, D3 n, double eta) {
 }  // namespace
 
 TEST_CASE("caustics: a ball of glass in parallel light sends the shares of Fresnel's and Snell's laws") {
-    // A black tube that is open towards the light keeps all that the ball sends, but for 1e-5 that goes straight back.
+    // A black tube that is open towards the light keeps all that the ball sends, but for 2e-5 that goes straight back (much of it
+    // by the glory: an internal reflection of light that came in at 83 degrees).
     Scene s;
     add_sphere(s, {0, 0, 0}, 1, glass(s));
     MaterialId const black = diffuse(s, 0);
-    add(s, Cylinder{3, -5, 200}, black);
-    add(s, Disk{-5, 3}, black);
+    add(s, Cylinder{1.05f, -5, 2000}, black);
+    add(s, Disk{-5, 1.05f}, black);
     s.add(distant({0, 0, 1}));
     World const world = compile(s);
     double const shares[] = {0.09178, 0.83554, 0.06118, 0.01149};
-    int const n = samples(16000, 160000);
+    double const within[] = {0.01, 0.01, 0.015, 0.03};
+    int const n = samples(32000, 320000);
     double const alpha = sidak(8);
     for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral}) {
         Settings st = shot_settings(n, color, true, 32);
@@ -47,10 +49,10 @@ TEST_CASE("caustics: a ball of glass in parallel light sends the shares of Fresn
                              (e * kPiD));
         }
         for (std::size_t k = 0; k < 4; ++k) {
-            auto const a = agrees(parts[k], shares[k], 0.01, alpha);
-            // The shares have five digits.
+            auto const a = agrees(parts[k], shares[k], within[k], alpha);
+            // The shares have five digits, and the tube an end.
             double const off = std::abs(parts[k].mean() - shares[k]);
-            CHECK_MESSAGE((a || (off < 6e-6 && a.powerful)), "class ", k, ": ", a);
+            CHECK_MESSAGE((a || (off < 2.5e-5 && a.powerful)), "class ", k, ": ", a);
         }
     }
 }
@@ -93,27 +95,30 @@ TEST_CASE("caustics: a mirror's, of a point light") {
 }
 
 TEST_CASE("caustics: a tilted shading normal reflects forward what a path from the eye finds") {
-    Scene s;
-    TriangleMesh patch = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
-    Vec3 const tilted = normalize(Vec3{0.6f, 0.1f, 1});
-    patch.n = {tilted, tilted, tilted, tilted};
-    add(s, patch, diffuse(s, 0.8f));
-    add(s, Quad{{1, -1, 1.5f}, {0, 2, 0}, {2, 0, 0}}, diffuse(s, 1));  // faces down
-    s.add(spot_light({-0.5f, 0, 2}, {0, 0, 0}, 3, 20, 10));
-    look_parallel(s, {2, 0, 1.49f}, {0, 0, 1}, 1);
-    World const world = compile(s);
-    Means const seen = measure(world, settings(path(2)), samples(2048, 20480));
-    double const watts = seen[0][1].mean() * kPiD * 4;  // radiance of a white surface = E / pi, 2 x 2 units
-    CHECK(watts > 0.1);
-    Mean const sent = batches_of(world, shot_settings(samples(64000, 640000)), ShotKind::Global,
-                                 [](Photon const& p) { return p.bounces() == 1 && p.p().z > 1; });
-    double const error = std::sqrt(sent.standard_error() * sent.standard_error() +
-                                   std::pow(seen[0][1].standard_error() * kPiD * 4, 2));
-    CHECK(error < 0.005 * watts);
-    CHECK_MESSAGE(student_p((sent.mean() - watts) / error, 31) > 0.001, sent.mean(), " ", watts, " +- ",
-                  error);
-    // An untilted one would send another amount.
-    CHECK(std::abs(watts / sent.mean() - 1) < 0.02);
+    double watts[2];
+    for (bool const tilt : {false, true}) {
+        Scene s;
+        TriangleMesh patch = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+        if (tilt) patch.n.assign(4, normalize(Vec3{0.6f, 0.1f, 1}));
+        add(s, patch, diffuse(s, 0.8f));
+        add(s, Quad{{0.5f, -1, 1}, {0, 2, 0}, {2, 0, 0}}, diffuse(s, 1));  // faces down
+        s.add(spot_light({-0.5f, 0, 2}, {0, 0, 0}, 3, 20, 10));
+        look_parallel(s, {1.5f, 0, 0.99f}, {0, 0, 1}, 1);
+        World const world = compile(s);
+        Means const seen =
+            measure(world, settings(path(2)), static_cast<std::uint64_t>(samples(4096, 40960)));
+        // A white surface's radiance is E / pi; 2 x 2 units.
+        double const per_radiance = kPiD * 4;
+        double const expected = seen[0][1].mean() * per_radiance;
+        Mean const sent = batches_of(world, shot_settings(samples(64000, 640000)), ShotKind::Global,
+                                     [](Photon const& p) { return p.bounces() == 1 && p.p().z > 0.9f; });
+        double const error = std::hypot(sent.standard_error(), seen[0][1].standard_error() * per_radiance);
+        CHECK(error < 0.008 * expected);
+        CHECK_MESSAGE(student_p((sent.mean() - expected) / error, 31) > sidak(2), sent.mean(),
+                      ", from the eye ", expected, " +- ", error);
+        watts[tilt ? 1 : 0] = expected;
+    }
+    CHECK(watts[1] < 0.9 * watts[0]);  // it does matter
 }
 
 TEST_CASE("caustics: a prism's photons go where Snell's law sends their wavelength") {
