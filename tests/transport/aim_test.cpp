@@ -97,12 +97,7 @@ std::vector<Kind> kinds() {
     k.push_back({"sun and sky", plain(day)});
     InfiniteLight through;
     through.portal = std::array{Vec3{-1, -1, 3}, Vec3{-1, 1, 3}, Vec3{1, 1, 3}, Vec3{1, -1, 3}};
-    k.push_back({"portal", [through](Scene& s) {
-                     InfiniteLight l = through;
-                     // Either way round, so that light comes down.
-                     std::swap((*l.portal)[1], (*l.portal)[3]);
-                     s.add(Light{l, {}, {}});
-                 }});
+    k.push_back({"portal", plain(through)});
     return k;
 }
 
@@ -145,25 +140,27 @@ TEST_CASE("aim: rays are drawn by their density") {
 
         // Light at infinity: where the ray passes, across its direction. Others: where it goes.
         constexpr int kSide = 10;
-        std::vector<double> observed(kSide * kSide), expected(kSide * kSide);
-        BoundingSphere const sphere = bounding_sphere(world.bounds());
+        // Where nearly nothing goes, the sum of the densities may have found nothing.
+        std::vector<double> observed(kSide * kSide), expected(kSide * kSide, 1e-3);
+        BoundingSphere sphere = bounding_sphere(world.bounds());
+        float const near = sphere.radius;
+        if (kind.name == "portal") sphere.radius *= 3;  // it is not within the bounds
         auto const bin_of = [&](LightRay const& r) {
-            Vec2 st;
+            Vec2 st{0, 0};
             if (boundless) {
                 Vec3 const at = frame_from_z(-r.emission.ray.d).to_local(r.emission.ray.o - sphere.centre);
                 st = {0.5f + 0.5f * at.x / sphere.radius, 0.5f + 0.5f * at.y / sphere.radius};
             } else {
-                st = equal_area_sphere_to_square(r.emission.ray.d);
-                // Most of it goes down: finer bins there.
-                st = {0.5f + 0.5f * std::copysign(std::sqrt(std::abs(2 * st.x - 1)), 2 * st.x - 1),
-                      0.5f + 0.5f * std::copysign(std::sqrt(std::abs(2 * st.y - 1)), 2 * st.y - 1)};
+                // Where it would meet the plane of the casters, from 3 above; what does not go down has a place beside it.
+                Vec3 const d = r.emission.ray.d;
+                if (d.z < -0.3f) st = {0.5f - 0.4f * d.x / d.z, 0.5f - 0.4f * d.y / d.z};
             }
             auto const cell = [](float x) {
                 return static_cast<std::size_t>(std::clamp(static_cast<int>(x * kSide), 0, kSide - 1));
             };
             return cell(st.x) + kSide * cell(st.y);
         };
-        int const n = samples(40000, 400000);
+        int const n = samples(10000, 100000);
         Random random(5);
         bool finite = true;
         bool same = true;
@@ -181,10 +178,8 @@ TEST_CASE("aim: rays are drawn by their density") {
         CHECK(finite);
         CHECK(same);
         // The same integral by rays that are even: over directions, or over the disk.
-        std::int64_t const points = 12 * static_cast<std::int64_t>(samples(200000, 2000000));
-        double const measure =
-            boundless ? static_cast<double>(kPi * sqr(sphere.radius)) : 4 * static_cast<double>(kPi);
-        int const per_origin = 16;
+        std::int64_t const points = 4 * static_cast<std::int64_t>(samples(400000, 8000000));
+        int const per_origin = 4;
         for (std::int64_t i = 0; i < points / per_origin; ++i) {
             Draw const u = draw(random);
             auto const from = world.emit(0, nullptr, u.position, u.direction, Wavelengths::rgb());
@@ -194,18 +189,30 @@ TEST_CASE("aim: rays are drawn by their density") {
                 Draw const w = draw(random);
                 EmissionSample& e = r.emission;
                 bool lit = true;
+                double measure = 0;
                 if (boundless) {
-                    Vec2 const disk = square_to_disk(w.position);
-                    Vec3 const p = sphere.centre + frame_from_z(-e.ray.d).from_local(
-                                                       {disk.x * sphere.radius, disk.y * sphere.radius, 0});
-                    e.ray.o = p - sphere.radius * e.ray.d;
-                    // Portals.
-                    lit = !world.environment(p, -e.ray.d, Wavelengths::rgb()).is_black() ||
-                          kind.name == "distant";
-                    if (kind.name == "portal")
-                        lit = world.emission_density(LightId{0}, p, e.ray.d).position > 0;
+                    // Every second one through what casts, the others as the light sends them.
+                    Vec2 const disk = square_to_disk(w.position) * near;
+                    Vec3 const p =
+                        j % 2 == 0 ? world.emit(0, nullptr, w.position, u.direction, Wavelengths::rgb())
+                                         ->emission.ray.o
+                                   : sphere.centre + frame_from_z(-e.ray.d).from_local({disk.x, disk.y, 0});
+                    e.ray.o = p - dot(p - sphere.centre, e.ray.d) * e.ray.d - sphere.radius * e.ray.d;
+                    Vec3 const across = cross(p - sphere.centre, e.ray.d);
+                    double const own =
+                        static_cast<double>(world.emission_density(LightId{0}, p, e.ray.d).position);
+                    lit = own > 0;
+                    measure = 2 / (own + (length_squared(across) <= near * near
+                                              ? static_cast<double>(kInvPi / sqr(near))
+                                              : 0));
                 } else {
-                    e.ray.d = square_to_uniform_sphere(w.direction);
+                    // Every second one downwards, where most goes.
+                    constexpr float kCone = 0.4f;
+                    e.ray.d = j % 2 == 0 ? square_to_uniform_sphere(w.direction)
+                                         : -square_to_uniform_cone(w.direction, kCone);
+                    measure =
+                        1 / static_cast<double>(0.5f * kUniformSpherePdf +
+                                                (e.ray.d.z < kCone - 1 ? 0.5f * uniform_cone_pdf(kCone) : 0));
                     if (surface) {
                         if (kind.name == "two-sided") e.n = face_forward(e.n, e.ray.d);
                         lit = dot(e.n, e.ray.d) > 0 && !e.radiance.is_black();
@@ -246,12 +253,12 @@ TEST_CASE("aim: caustics have the same power with and without it, whatever the l
         World const world = compile(scene);
         for (auto const& which : {Which(floor), Which(middle)}) {
             Mean const aimed =
-                batches_of(world, shot_settings(samples(4000, 40000)), ShotKind::Caustic, which);
-            Mean const plain = batches_of(world, shot_settings(samples(20000, 200000), ColorMode::Rgb, false),
+                batches_of(world, shot_settings(samples(2000, 20000)), ShotKind::Caustic, which);
+            Mean const plain = batches_of(world, shot_settings(samples(8000, 80000), ColorMode::Rgb, false),
                                           ShotKind::Caustic, which);
             double const error = std::hypot(aimed.standard_error(), plain.standard_error());
             CHECK(plain.mean() > 0);
-            CHECK(error < 0.06 * plain.mean());
+            CHECK(error < 0.1 * plain.mean());
             double const p = student_p((aimed.mean() - plain.mean()) / error, 40);
             CHECK_MESSAGE(p > alpha, kind.name, ": ", aimed.mean(), " aimed, ", plain.mean(), " +- ", error,
                           ", p = ", p);
@@ -263,8 +270,8 @@ TEST_CASE("aim: a light inside of what casts, lights of many kinds, many casters
     auto const test = [](Scene const& scene, double alpha) {
         World const world = compile(scene);
         auto const floor = [](Photon const& p) { return p.p().z < -0.9f && length(p.p()) < 3.0f; };
-        Mean const aimed = batches_of(world, shot_settings(samples(8000, 80000)), ShotKind::Caustic, floor);
-        Mean const plain = batches_of(world, shot_settings(samples(20000, 200000), ColorMode::Rgb, false),
+        Mean const aimed = batches_of(world, shot_settings(samples(4000, 40000)), ShotKind::Caustic, floor);
+        Mean const plain = batches_of(world, shot_settings(samples(10000, 100000), ColorMode::Rgb, false),
                                       ShotKind::Caustic, floor);
         double const error = std::hypot(aimed.standard_error(), plain.standard_error());
         CHECK(plain.mean() > 0);

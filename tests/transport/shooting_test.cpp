@@ -209,6 +209,58 @@ TEST_CASE("shooting: kinds of shots divide the photons among them") {
           doctest::Approx(caustic).epsilon(1e-6));
 }
 
+TEST_CASE("shooting: a light that shines into the void changes nothing but how many photons there are") {
+    auto const on_floor = [](Photon const& p) { return length(p.p()) < 1.0f; };
+    Scene scene;
+    add(scene, floor_quad(2), diffuse(scene, 0.5f));
+    add_sphere(scene, {0.2f, 0, 1}, 0.3f, glass(scene));
+    scene.add(point_light({0, 0, 2}, 1));
+    Scene more = scene;
+    more.add(spot_light({0, 0, 5}, {0, 0, 9}, 30, 40, 10));
+    World const one = compile(scene), two = compile(more);
+    for (ShotKind const kind : {ShotKind::Global, ShotKind::Caustic}) {
+        Settings const s = shot_settings(samples(12000, 120000));
+        Mean const a = batches_of(one, s, kind, on_floor), b = batches_of(two, s, kind, on_floor);
+        double const error = std::hypot(a.standard_error(), b.standard_error());
+        CHECK(error < 0.01 * a.mean());
+        CHECK_MESSAGE(student_p((a.mean() - b.mean()) / error, 40) > sidak(2), a.mean(), " ", b.mean(),
+                      " +- ", error);
+    }
+    Shot const shot = shot_of(two, shot_settings(20000), ShotKind::Global);
+    CHECK(shot.by_source[1].emitted > 5000);
+    CHECK(shot.by_source[1].escaped == shot.by_source[1].emitted);
+}
+
+TEST_CASE("shooting: a scene of another size has the same photons") {
+    auto const sized = [](float size) {
+        Scene s;
+        add(s, box_mesh(Vec3{-2, -2, -2} * size, Vec3{2, 2, 2} * size, true),
+            diffuse(s, Vec3{0.7f, 0.5f, 0.3f}));
+        add_sphere(s, Vec3{0, 0.3f, -1} * size, 0.6f * size, glass(s));
+        add_sphere(s, Vec3{1, 1, -1} * size, 0.4f * size, mirror(s, 0.8f));
+        s.add(point_light(Vec3{0.5f, 0.3f, 1.5f} * size, size * size));
+        add(s, Quad{Vec3{-1, -1, 1.9f} * size, {0, 1.5f * size, 0}, {size, 0, 0}}, diffuse(s, 0.2f)).light =
+            white(1);
+        s.add(spot_light(Vec3{0, 0, 1.5f} * size, Vec3{1, 1, -1} * size, 2 * size * size, 20, 5));
+        return compile(std::move(s));
+    };
+    World const unit = sized(1);
+    for (float const size : {0x1p-13f, 0x1p20f}) {
+        World const world = sized(size);
+        for (ShotKind const kind : {ShotKind::Global, ShotKind::Caustic}) {
+            Shot const a = shot_of(unit, shot_settings(5000), kind);
+            Shot const b = shot_of(world, shot_settings(5000), kind);
+            REQUIRE(a.photons.size() == b.photons.size());
+            bool same = true;
+            for (std::size_t i = 0; i < a.photons.size(); ++i)
+                same = same && a.photons[i].p() * size == b.photons[i].p() &&
+                       a.photons[i].power()[1] * (size * size) == b.photons[i].power()[1] &&
+                       a.photons[i].wi() == b.photons[i].wi();
+            CHECK(same);
+        }
+    }
+}
+
 TEST_CASE("shooting: one emitter is one source, however many triangles and appearances it has") {
     Scene scene;
     Group lamp;
