@@ -217,7 +217,6 @@ TEST_CASE("aim: rays are drawn by their density") {
                         if (kind.name == "two-sided") e.n = face_forward(e.n, e.ray.d);
                         lit = dot(e.n, e.ray.d) > 0 && !e.radiance.is_black();
                     } else {
-                        SurfaceHit nothing;
                         Receiver const there{e.ray.o + e.ray.d, {0, 0, 0}, true};
                         lit =
                             world.sample_light(there, {}, 0.5, {0.5f, 0.5f}, Wavelengths::rgb()).has_value();

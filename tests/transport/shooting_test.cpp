@@ -298,7 +298,6 @@ TEST_CASE("shooting: stops soon when told to, and says how far it is") {
     std::atomic<bool> stop = true;
     PrepareControl control;
     control.stop = &stop;
-    RayStats stats;
     CHECK(!shoot(job, ShotKind::Global, 0, 100000000, control));
     stop = false;
     double last = 0;

@@ -38,7 +38,7 @@ struct TraceSums;  // world/floor.h
 struct LightRay {
     EmissionSample emission;  // ray.o lies on the surface: move it off by p_error
     std::uint32_t light = 0;  // of all that there are to choose from (WorldCounts::lights)
-    float choice = 0;         // the probability of having chosen it
+    float choice = 0;         // the probability of having chosen it; 1 where the densities contain it
 
     /// Where the ray begins.
     [[nodiscard]] Ray start() const {
