@@ -12,6 +12,8 @@ namespace {
 constexpr float kSameNormal = 0.5f;
 constexpr float kPlate = 0.25f;  // half its thickness over the radius
 
+constexpr float kLeastSquare = 1e-37f;  // of a radius whose square has an inverse
+
 /// Where photons must have landed.
 struct Place {
     Vec3 p, n;
@@ -26,7 +28,7 @@ struct Gathered {
     Vec3 offsets{0, 0, 0};  // their sum, for the centroid
 };
 
-/// Calls use(photon, normal it landed on, K / r^2) for every photon that counts (eq. 1).
+/// Calls use(photon, K / r^2) for every photon that counts (eq. 1).
 template <class Use>
 Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule const& rule,
                          NearestPhotons& nearest, Use&& use) {
@@ -34,17 +36,18 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
     if (map.empty()) return g;
     g.radius = rule.radius;
     auto const sum = [&](auto const& kernel) {
+        if (!(sqr(g.radius) >= kLeastSquare)) return;
+        float inverse = 1.0f / sqr(g.radius);
         auto const count = [&](std::uint32_t i, float d2) {
             if (i == at.without) return;
             Photon const& photon = map[i];
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
             if (off_plane > kPlate * g.radius) return;
-            Vec3 const n = photon.n();
-            float const facing = dot(n, at.n);
-            if ((at.both_sides ? std::abs(facing) : facing) < kSameNormal) return;
-            float const inverse = 1.0f / (g.radius * g.radius);
-            if (use(photon, n, kernel(d2 * inverse) * inverse)) {
+            Vec3 const n = photon.along_n();
+            float const facing = at.both_sides ? abs_dot(n, at.n) : dot(n, at.n);
+            if (facing <= 0.0f || sqr(facing) < sqr(kSameNormal) * length_squared(n)) return;
+            if (use(photon, kernel(d2 * inverse) * inverse)) {
                 ++g.photons;
                 g.offsets += offset;
             }
@@ -63,7 +66,8 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
         // Squared distances are compared: the square of a rounded root may lie beyond the k-th, which then would count.
         float const most = sqr(rule.shrink) * farthest;
         g.radius = std::sqrt(most);
-        if (!(g.radius > 0.0f)) return;  // k photons at one point
+        if (!(most >= kLeastSquare)) return;  // k photons at one point
+        inverse = 1.0f / most;
         for (FoundPhoton const& f : nearest.found)
             if (f.distance2 < most) count(f.index, f.distance2);
     };
@@ -141,29 +145,29 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
                    v.is.spreads_through};
     bool const same_normals = v.hit.s.ns == v.hit.s.ng;
     auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf);
-    Gathered const g =
-        for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, Vec3 n, float weight) {
-            if (photon.bounces() + 1 + walk.vertex > most_bounces) return false;
-            // Both stand for all four lanes by the hero's: once is enough.
-            if (walk.hero_only && photon.hero_only()) weight *= 0.25f;
-            if (diffuse && same_normals) {
-                e.radiance += photon.power() * weight;
-                return true;
-            }
-            Vec3 const wi = photon.wi();
-            if (!same_normals) {
-                // Flux came by the geometric normal where it landed, scattering goes by the shading normal (Veach 1997, 5.3). A facet beside
-                // may face the light quite differently. Photons know their normals to a degree: no cosine is less certain than that.
-                constexpr float kOneDegree = 0.0175f, kSameFacet = 0.9996f;
-                float const cosine =
-                    abs_dot(n, at.n) > kSameFacet ? abs_dot(wi, at.n) : max(abs_dot(wi, n), kOneDegree);
-                if (!(cosine > 0.0f)) return false;
-                weight *= abs_dot(wi, v.hit.s.ns) / cosine;
-            }
-            e.radiance +=
-                evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
+    Gathered const g = for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, float weight) {
+        if (photon.bounces() + 1 + walk.vertex > most_bounces) return false;
+        // Both stand for all four lanes by the hero's: once is enough.
+        if (walk.hero_only && photon.hero_only()) weight *= 0.25f;
+        if (diffuse && same_normals) {
+            e.radiance += photon.power() * weight;
             return true;
-        });
+        }
+        Vec3 const wi = photon.wi();
+        if (!same_normals) {
+            // Flux came by the geometric normal where it landed, scattering goes by the shading normal (Veach 1997, 5.3). A facet beside
+            // may face the light quite differently. Photons know their normals to a degree: no cosine is less certain than that.
+            Vec3 const n = photon.n();
+            constexpr float kOneDegree = 0.0175f, kSameFacet = 0.9996f;
+            float const cosine =
+                abs_dot(n, at.n) > kSameFacet ? abs_dot(wi, at.n) : max(abs_dot(wi, n), kOneDegree);
+            if (!(cosine > 0.0f)) return false;
+            weight *= abs_dot(wi, v.hit.s.ns) / cosine;
+        }
+        e.radiance +=
+            evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
+        return true;
+    });
     if (diffuse && same_normals) e.radiance *= diffuse->reflectance * kInvPi;
     e.radiance *= edge_factor(c.world, at, rule, g, c.stats);
     e.radius = g.radius;
@@ -175,7 +179,7 @@ Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, Es
                     NearestPhotons& nearest, RayStats& stats, std::uint32_t without) {
     Estimate e;
     Place const at{p, n, false, without};
-    Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, Vec3, float weight) {
+    Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, float weight) {
         e.radiance += photon.power() * weight;
         return true;
     });

@@ -259,8 +259,8 @@ TEST_CASE("corners of the data: no photons, all of them at one point, a radius o
     for (int i = 0; i < 1000; ++i) at_one_point.emplace_back(landed({0.5f, 0, 0}, kUp, 1e-3f));
     PhotonMap const heap(std::move(at_one_point));
     for (std::uint32_t const k : {0u, 1u, 2u, 50u, 5000u})
-        for (float const radius : {0.0f, 1e-30f, 1.0f})
-            for (float const x : {0.0f, 0.5f}) {
+        for (float const radius : {0.0f, 1e-30f, 1e-21f, 1.0f})
+            for (float const x : {0.0f, 0.5f, 0.25f}) {
                 CAPTURE(k);
                 CAPTURE(radius);
                 CHECK(
