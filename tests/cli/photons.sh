@@ -119,7 +119,10 @@ warned() {
     says "warning: no photon was stored"
 }
 warned room.pbrt --integrator photonmap --set indirectphotons=0 --set causticphotons=0
-grep -v -e '^Material "diffuse"' -e '^Shape "box"' room.pbrt >glass.pbrt
+{
+    sed '/^WorldBegin/q' room.pbrt
+    echo 'LightSource "point" "point3 from" [ 0 2 0 ]' 'Material "dielectric"' 'Shape "sphere" "float radius" 0.5'
+} >glass.pbrt
 warned glass.pbrt --integrator sppm
 grep -v Light room.pbrt >dark.pbrt
 run 0 render dark.pbrt --integrator sppm -o a.exr --spp 16 --size 8x6
