@@ -36,6 +36,17 @@ float interface_share(Assets const& assets, MaterialId id, TexturePoint const& a
         [](auto const&) { return 0.0f; });
 }
 
+float spreading_share(Assets const& assets, MaterialId id, TexturePoint const& at,
+                      Wavelengths const& lambda) {
+    if (auto const* m = std::get_if<MixMaterial>(&assets.scene()[id].kind)) {
+        float const amount = clamp(evaluate_float(assets, m->amount, at), 0.0f, 1.0f);
+        return (1.0f - amount) * spreading_share(assets, m->a, at, lambda) +
+               amount * spreading_share(assets, m->b, at, lambda);
+    }
+    Bsdf bsdf;
+    return make_bsdf(assets, id, at, lambda, bsdf) && !traits(bsdf).near_specular ? 1.0f : 0.0f;
+}
+
 Microfacets MaterialPoint::facets(Roughness const& r) const {
     Microfacets m;
     m.kind = r.distribution;

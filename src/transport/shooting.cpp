@@ -63,12 +63,28 @@ struct Shoot {
 /// How a path ended: a member of PhotonCounts.
 using End = std::uint64_t PhotonCounts::*;
 
-PhotonRecord photon_of(Walk const& walk, Vertex const& v, std::uint32_t light, bool caustic) {
+/// Where alpha or a mix leaves it to chance whether a surface keeps a photon, the same chance decides whether a ray from the eye asks
+/// for it: photons there stand for those that went on as well, or such a surface would be lit by its share of the light alone.
+float share_kept(PathContext const& c, Vertex const& v) {
+    float share = c.world.presence(v.hit);
+    if (c.world.assets().data(v.hit.material).mix) {
+        TexturePoint at;
+        at.p = v.hit.s.p;
+        at.uv = v.hit.s.uv;
+        at.n = v.hit.s.ng;
+        if (float const s = spreading_share(c.world.assets(), v.hit.material, at, c.lambda); s > 0.0f)
+            share *= s;
+    }
+    return share;
+}
+
+PhotonRecord photon_of(PathContext const& c, Walk const& walk, Vertex const& v, std::uint32_t light,
+                       bool caustic) {
     PhotonRecord r;
     r.p = v.hit.s.p;
     r.wi = -walk.ray.d;
     r.n = dot(v.hit.s.ng, walk.ray.d) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
-    r.power = walk.beta;
+    r.power = walk.beta / share_kept(c, v);
     r.bounces = walk.vertex;
     r.light = light;
     r.caustic = caustic;
@@ -100,7 +116,7 @@ End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats
         // Light that an absorbing medium has swallowed to the last float is no photon.
         if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
         bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(walk, v, light, caustic));
+        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(c, walk, v, light, caustic));
         if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
         Spectrum const before = walk.beta;
         if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;

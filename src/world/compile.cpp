@@ -149,7 +149,8 @@ struct Builder {
                 r.passage = passage_of(scene, assets, o);
                 parts.partly = parts.partly || r.passage == Passage::Partly;
                 r.place = place_of(scene, o);
-                r.textured = o.material.valid() && assets.data(o.material).textured;
+                r.textured = (o.material.valid() && assets.data(o.material).textured) ||
+                             (o.alpha.valid() && !assets.data(o.alpha).flat);
                 if (o.light) {
                     r.first_light = lights_of_group;
                     lights_of_group += part_count(r);

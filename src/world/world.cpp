@@ -70,6 +70,17 @@ void World::complete(RawHit const& raw, SurfaceHit& hit) const {
                record.textured, hit.s);
 }
 
+float World::presence(SurfaceHit const& hit) const {
+    TextureId const alpha = parts_->records[hit.record].object->alpha;
+    if (!alpha.valid()) return 1.0f;
+    TexturePoint at;
+    at.p = hit.s.p;
+    at.uv = hit.s.uv;
+    at.n = hit.s.ng;
+    float const opacity = evaluate_float(*assets_, alpha, at);
+    return opacity > 0.0f && opacity < 1.0f ? opacity : 1.0f;  // it has been met
+}
+
 float World::transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
     ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
     Ray ray;

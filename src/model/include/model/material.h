@@ -11,6 +11,9 @@ MaterialId resolve_mix(Assets const& assets, MaterialId id, TexturePoint const& 
 /// The probability with which resolve_mix ends at an interface: the share of light that passes as if nothing were there.
 float interface_share(Assets const& assets, MaterialId id, TexturePoint const& at);
 
+/// The probability with which it ends at a surface that is not near-specular (BsdfTraits): where photons stay.
+float spreading_share(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda);
+
 /// Fills `bsdf` in place. False for an interface: light goes on. `id` must not be a mix (see resolve_mix).
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf);
