@@ -201,11 +201,37 @@ TEST_CASE("each class of light equals the path tracer's, material by material") 
         World const world = compile(room_with(make, std::getenv("ALPHA") ? 0.4f : 1));
         Settings s = settings(path(1), 12, 12);
         if (std::string(name) == "flint") s.color = ColorMode::Spectral;
-        int const n = samples(4000, 40000);
+        int const n = samples(std::getenv("N") ? std::atoi(std::getenv("N")) : 4000, 40000);
         check_classes(world, s, 12, static_cast<std::uint64_t>(samples(32, 320)),
                       {{"gathered", photon_map(n, true, 0, 0.05f), 4, 1},
                        {"read", photon_map(n, false, 0.05f, 0.05f), 4, 1},
                        {"sppm", progressive(12, n, 0.05f), 1, 2}},
                       0.02);
     }
+}
+
+TEST_CASE("probe") {
+    for (bool const sphere : {true, false})
+        for (Sampler const& sampler : {Sampler{SobolSampler{}}, Sampler{IndependentSampler{}}})
+            for (int const n : {1000, 30000})
+                for (int const nused : {20, 50, 200}) {
+                    Scene s;
+                    if (sphere)
+                        add(s, Sphere{}, diffuse(s, 0.5f));
+                    else
+                        add(s, box_mesh({-1, -1, -1}, {1, 1, 1}, true), diffuse(s, 0.5f)).light = white(1);
+                    if (sphere) s.add(point_light({0, 0, 0}, kPi));
+                    look_around(s, {0.1f, 0.2f, 0.3f});
+                    World const world = compile(std::move(s));
+                    PhotonMapIntegrator p = photon_map(n, true, 0, 0);
+                    p.estimates.nused = std::abs(nused);
+                    p.estimates.edge_correction = nused > 0;
+                    Settings how = settings(p, 8, 8);
+                    how.sampler = sampler;
+                    how.spp = 4;
+                    FilmMeans const m = film_means(world, how, 1, 1);
+                    std::cout << (sphere ? "sphere" : "box") << sampler.index() << " " << n << " " << nused << " direct "
+                              << m.light[0][1].mean() << " indirect " << m.light[2][1].mean() << " +- "
+                              << m.light[2][1].standard_error() << "\n";
+                }
 }
