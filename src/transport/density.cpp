@@ -18,6 +18,7 @@ constexpr float kLeastSquare = 1e-37f;  // of a radius whose square has an inver
 struct Place {
     Vec3 p, n;
     bool both_sides = false;
+    std::uint32_t without = kNoPhoton;
 };
 
 /// What the photons that count amount to, and where they lie.
@@ -38,6 +39,7 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
         if (!(sqr(g.radius) >= kLeastSquare)) return;
         float inverse = 1.0f / sqr(g.radius);
         auto const count = [&](std::uint32_t i, float d2) {
+            if (i == at.without) return;
             Photon const& photon = map[i];
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
@@ -54,9 +56,10 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             map.within(at.p, g.radius, count);
             return;
         }
-        map.nearest(at.p, rule.k, rule.radius, nearest);
+        std::uint32_t const k = rule.k + (at.without == kNoPhoton ? 0 : 1);
+        map.nearest(at.p, k, rule.radius, nearest);
         float farthest = rule.radius * rule.radius;
-        if (nearest.found.size() == rule.k) {
+        if (nearest.found.size() == k) {
             farthest = 0;
             for (FoundPhoton const& f : nearest.found) farthest = max(farthest, f.distance2);
         }
@@ -173,9 +176,9 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
 }
 
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
-                    NearestPhotons& nearest, RayStats& stats) {
+                    NearestPhotons& nearest, RayStats& stats, std::uint32_t without) {
     Estimate e;
-    Place const at{p, n};
+    Place const at{p, n, false, without};
     Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, float weight) {
         e.radiance += photon.power() * weight;
         return true;

@@ -18,6 +18,8 @@
 
 namespace nephroid {
 
+inline constexpr std::uint32_t kNoPhoton = ~0u;
+
 /// How a map is asked.
 struct EstimateRule {
     Kernel kernel = Kernel::Epanechnikov;
@@ -47,9 +49,10 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
                    EstimateRule const& rule, std::uint32_t most_bounces);
 
 /// Irradiance on the side of n at p, from photons that landed on that side: `radiance` is W/m^2 (per nm) here. Those in the hero lane
-/// alone count for all lanes.
+/// alone count for all lanes. `without`: a photon of the map that does not count. Where the place was chosen because a photon lies
+/// there, that one tells nothing about how many others do: with it, estimates by 50 photons are 4% too bright.
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
-                    NearestPhotons& nearest, RayStats& stats);
+                    NearestPhotons& nearest, RayStats& stats, std::uint32_t without = kNoPhoton);
 
 /// How much of the disk about p is surface with a normal like n that p sees: found by probing it with rays (64 places; 8 along the rim
 /// tell whether the others are needed).
