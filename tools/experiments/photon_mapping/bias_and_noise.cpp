@@ -76,20 +76,20 @@ void bias_and_noise(Lab const& lab) {
     Picture const truth = patch_reference(kSmallMirror, setup).picture;
     int const maps = lab.seeds(24);
     std::uint64_t const paths = paths_of(lab);
-    std::vector<double> const ks{10, 20, 50, 100, 200, 500, 1000};
+    std::vector<int> const ks{10, 20, 50, 100, 200, 500, 1000};
     Line bias{"bias", {}, {}, {}}, noise{"noise", {}, {}, {}}, both{"both", {}, {}, {}};
     SheetRow row{"", {}, exposure_for(truth, 0.99)};
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
-    for (double const k : ks) {
-        std::string const directives = ask(paths, static_cast<int>(k), "epanechnikov");
+    for (int const k : ks) {
+        std::string const directives = ask(paths, k, "epanechnikov");
         Off const off = measured(setup, directives, truth, maps);
         for (auto [line, y] : {std::pair{&bias, off.bias}, {&noise, off.noise}, {&both, off.total()}})
-            line->x.push_back(k), line->y.push_back(y);
-        rows.push_back({number(k), percent(off.bias), percent(off.bias_inside), percent(off.noise),
+            line->x.push_back(static_cast<double>(k)), line->y.push_back(y);
+        rows.push_back({std::to_string(k), percent(off.bias), percent(off.bias_inside), percent(off.noise),
                         percent(off.total())});
         if (k == 10 || k == 50 || k == 200 || k == 1000) {
-            labels.push_back("k = " + number(k));
+            labels.push_back("k = " + std::to_string(k));
             row.pictures.push_back(
                 render_picture(patch_setup(kSmallMirror, lab.pixels(128)), directives, 1, 1));
         }
@@ -99,7 +99,7 @@ void bias_and_noise(Lab const& lab) {
     write_sheet(page.file("bias.png"), labels, {row});
     page.image("bias.png", "A patch of mirrored light by photons an estimate, and in closed form");
     noise.note = "slope " + fixed(log_log_slope(noise.x, noise.y), 2);
-    page.save("bias.svg", line_plot("Bias and noise", {"photons an estimate", true, ks},
+    page.save("bias.svg", line_plot("Bias and noise", {"photons an estimate", true, bias.x},
                                     {"share of the mean radiance"}, {bias, noise, both}));
     page.image("bias.svg", "Bias and noise over photons an estimate");
     page.table({"photons an estimate", "bias, RMS", "bias far from edges, RMS", "noise, RMS", "both"}, rows);
@@ -110,7 +110,7 @@ void bias_and_noise(Lab const& lab) {
         fmt::format("{} maps of {} paths each; shares of the mean radiance. Noise falls with the slope {}; "
                     "an estimate of "
                     "k independent photons has −1/2. With so many photons, {} an estimate are best.",
-                    maps, thousands(paths), fixed(log_log_slope(noise.x, noise.y), 2), number(ks[best])));
+                    maps, thousands(paths), fixed(log_log_slope(noise.x, noise.y), 2), ks[best]));
 }
 
 void kernels(Lab const& lab) {

@@ -121,9 +121,8 @@ void photons_and_paths(Lab const& lab) {
         {"", "emitted paths", "stored photons", "drawn"},
         {{"global map", thousands(photons), thousands(global->photons.size()), thousands(shown)},
          {"caustic map", thousands(photons), thousands(caustic->photons.size()), thousands(shown_caustic)},
-         {"paths, segments of them", number(static_cast<double>(paths)), "",
-          number(static_cast<double>(segments), 4)},
-         {"normals, of every twelfth photon", "", "", number(static_cast<double>(drawn_normals), 4)}});
+         {"paths, segments of them", std::to_string(paths), "", std::to_string(segments)},
+         {"normals, of every twelfth photon", "", "", std::to_string(drawn_normals)}});
 }
 
 }  // namespace nephroid::experiment

@@ -91,6 +91,8 @@ double relative_mse(Picture const& p, Picture const& reference) {
     return rel_mse(image_of(p), image_of(reference));
 }
 
-std::string thousands(std::uint64_t n) { return number(static_cast<double>(n) / 1000) + "k"; }
+std::string thousands(std::uint64_t n) {
+    return n < 1000 ? std::to_string(n) : number(static_cast<double>(n) / 1000) + "k";
+}
 
 }  // namespace nephroid::experiment

@@ -42,7 +42,7 @@ Setup cropped(Setup setup, double x0, double x1, double y0, double y1);
 
 /// image/compare.h's rel_mse.
 double relative_mse(Picture const& p, Picture const& reference);
-/// In thousands: "44.1k".
+/// In thousands, from there on: "44.1k".
 std::string thousands(std::uint64_t n);
 
 }  // namespace nephroid::experiment
