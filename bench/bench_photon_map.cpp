@@ -131,7 +131,7 @@ struct Structure {
 struct Ours final : Structure {
     PhotonMap map;
     NearestPhotons room;
-    explicit Ours(std::vector<Photon> photons, float) : map(std::move(photons)) {}
+    explicit Ours(std::vector<Photon> photons, float for_radius = 0) : map(std::move(photons), for_radius) {}
     double nearest(std::span<Vec3 const> at, std::uint32_t k, float most) override {
         double sum = 0;
         for (Vec3 const p : at) {
@@ -164,7 +164,7 @@ struct Cloud {
         return false;
     }
 };
-/// The k nearest within a radius, as a heap: for many k far quicker than nanoflann's own sorted list.
+/// The k nearest within a radius, as a heap.
 class HeapSet {
   public:
     using DistanceType = float;
@@ -205,10 +205,7 @@ struct Nanoflann final : Structure {
     Cloud cloud;
     std::unique_ptr<Tree> tree;
     HeapSet heap;
-    std::vector<std::uint32_t> index;
-    std::vector<float> distance;
-    bool own_list;  // nanoflann's sorted list, or our heap
-    explicit Nanoflann(std::vector<Photon> const& photons, float leaf) : own_list(false) {
+    explicit Nanoflann(std::vector<Photon> const& photons, float leaf) {
         cloud.points.reserve(photons.size());
         for (Photon const& p : photons) cloud.points.push_back(p.p());
         tree = std::make_unique<Tree>(
@@ -239,7 +236,7 @@ struct Nanoflann final : Structure {
 
 // --- measuring --------------------------------------------------------------------------------------------------------------
 struct Options {
-    std::vector<std::size_t> photons{100000, 1000000};
+    std::vector<std::size_t> photons{100000};
     int repetitions = 5;
     std::string only;
 };
@@ -269,54 +266,78 @@ std::vector<Photon> make_photons(Scene const& scene, std::size_t n) {
 }
 
 using Make = std::function<std::unique_ptr<Structure>(std::vector<Photon>)>;
+Make grid_for(float radius) {
+    return [radius](std::vector<Photon> p) { return std::make_unique<Ours>(std::move(p), radius); };
+}
+Make const kTree = grid_for(0);  // for none: a tree
+Make const kNanoflann = [](std::vector<Photon> const& p) { return std::make_unique<Nanoflann>(p, 10.0f); };
+
+/// Medians of `repetitions` rounds, in each of which all have their turn.
+std::vector<double> in_turn(std::size_t n, int repetitions,
+                            std::function<double(std::size_t)> const& seconds) {
+    std::vector<std::vector<double>> all(n);
+    for (int i = 0; i < repetitions; ++i)
+        for (std::size_t m = 0; m < n; ++m) all[m].push_back(seconds(m));
+    std::vector<double> medians;
+    for (auto& times : all) medians.push_back(median(times));
+    return medians;
+}
+
+/// Builds all, on one thread, and prints how long that takes.
+std::vector<std::unique_ptr<Structure>> build(std::vector<Make> const& makers,
+                                              std::vector<Photon> const& photons, int repetitions) {
+    std::vector<std::unique_ptr<Structure>> made(makers.size());
+    tbb::task_arena one(1);
+    auto const times = in_turn(makers.size(), repetitions, [&](std::size_t m) {
+        made[m].reset();
+        auto copy = photons;
+        double t = 0;
+        one.execute([&] { t = seconds_of([&] { made[m] = makers[m](std::move(copy)); }); });
+        return t;
+    });
+    for (std::size_t m = 0; m < times.size(); ++m)
+        std::printf("%s%.3g", m == 0 ? " | " : " / ", 1e3 * times[m]);
+    return made;
+}
 
 void measure(Scene const& scene, std::size_t n, Options const& o) {
     auto const photons = make_photons(scene, n);
     int const repetitions = n > 2000000 ? std::min(o.repetitions, 3) : o.repetitions;
-    std::vector<Make> const makers{
-        [](std::vector<Photon> p) { return std::make_unique<Ours>(std::move(p), 0.0f); },
-        [](std::vector<Photon> p) { return std::make_unique<Nanoflann>(std::move(p), 10.0f); }};
-    std::vector<std::unique_ptr<Structure>> made(makers.size());
-    std::vector<std::vector<double>> builds(makers.size());
-    for (int i = 0; i < repetitions; ++i)
-        for (std::size_t m = 0; m < makers.size(); ++m) {
-            made[m].reset();
-            auto copy = photons;
-            tbb::task_arena one(1);
-            one.execute(
-                [&] { builds[m].push_back(seconds_of([&] { made[m] = makers[m](std::move(copy)); })); });
-        }
-    std::printf("| %s | %.0e | %.0f / %.0f", scene.name, static_cast<double>(n), 1e3 * median(builds[0]),
-                1e3 * median(builds[1]));
-
-    auto const& map = static_cast<Ours const&>(*made[0]).map;
     auto const queries = make_places(scene, 100000, 2);
     auto const in_order = sorted(queries);
-    auto const ask = [&](std::size_t count, auto&& f) {
-        for (auto const* all : {&in_order, &queries}) {
-            std::size_t const begin = all == &in_order ? (all->size() - count) / 2 : 0;
-            std::span<Vec3 const> const at = std::span<Vec3 const>(*all).subspan(begin, count);
-            std::vector<std::vector<double>> times(made.size());
-            std::vector<double> sums(made.size());
-            for (int i = 0; i < repetitions; ++i)
-                for (std::size_t m = 0; m < made.size(); ++m)
-                    times[m].push_back(seconds_of([&] { sums[m] = f(*made[m], at); }));
+    // Asks all of them, in the order of tiles and then at random, and prints nanoseconds.
+    auto const ask = [&](std::vector<Structure*> const& all, std::size_t count, auto&& f) {
+        for (bool const tiles : {true, false}) {
+            // A part of the picture, where it is not the whole.
+            std::span<Vec3 const> const at =
+                tiles ? std::span<Vec3 const>(in_order).subspan((in_order.size() - count) / 2, count)
+                      : std::span<Vec3 const>(queries).first(count);
+            std::vector<double> sums(all.size());
+            auto const times = in_turn(all.size(), repetitions, [&](std::size_t m) {
+                return seconds_of([&] { sums[m] = f(*all[m], at); });
+            });
             for (double const sum : sums)
                 if (!(std::abs(sum - sums[0]) <= 1e-4 * sums[0]))
                     std::fprintf(stderr, "the sums differ: %g %g\n", sum, sums[0]);
-            std::printf("%s%.0f / %.0f", all == &in_order ? " | " : ", ",
-                        1e9 * median(times[0]) / static_cast<double>(count),
-                        1e9 * median(times[1]) / static_cast<double>(count));
+            for (std::size_t m = 0; m < times.size(); ++m)
+                std::printf("%s%.0f", m > 0 ? " / " : (tiles ? " | " : ", "),
+                            1e9 * times[m] / static_cast<double>(count));
             std::fflush(stdout);
         }
     };
+    std::printf("| %s | %.0e", scene.name, static_cast<double>(n));
+    auto made = build({kTree, kNanoflann}, photons, repetitions);
+    std::vector<Structure*> all{made[0].get(), made[1].get()};
+    auto const& map = static_cast<Ours const&>(*made[0]).map;
     for (std::uint32_t const k : {50u, 100u, 500u})
-        ask(5000000 / k, [k](Structure& s, auto at) { return s.nearest(at, k, kInfinity); });
+        ask(all, 5000000 / k, [k](Structure& s, auto at) { return s.nearest(at, k, kInfinity); });
     float const most = typical_distance(map, queries, 50);
-    ask(100000, [most](Structure& s, auto at) { return s.nearest(at, 50, most); });
+    ask(all, 100000, [most](Structure& s, auto at) { return s.nearest(at, 50, most); });
     for (std::uint32_t const k : {10u, 100u}) {
         float const radius = typical_distance(map, queries, k);
-        ask(100000, [radius](Structure& s, auto at) { return s.within(at, radius); });
+        auto grid = build({grid_for(radius)}, photons, repetitions);
+        all = {made[0].get(), grid[0].get(), made[1].get()};
+        ask(all, 100000, [radius](Structure& s, auto at) { return s.within(at, radius); });
     }
     std::printf(" |\n");
 }
@@ -334,9 +355,11 @@ int main(int argc, char** argv) {
     app.add_option("--only", o.only, "scenes whose name holds this");
     CLI11_PARSE(app, argc, argv);
     std::printf(
-        "| photons | how many | build ms | 50 nearest | 100 | 500 | 50, half within | radius, 10 hits | 100 "
-        "hits |\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|\n");
+        "Tree / nanoflann, or tree / grid / nanoflann. Builds in ms, queries in ns: in the order of tiles, "
+        "at random.\n\n"
+        "| photons | how many | build | 50 nearest | 100 nearest | 500 nearest | 50 nearest, half within | "
+        "build grid | "
+        "radius of 10 | build grid | radius of 100 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (Scene const& scene : kScenes)
         for (std::size_t const n : o.photons)
             if (std::string(scene.name).find(o.only) != std::string::npos) measure(scene, n, o);

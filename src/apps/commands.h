@@ -20,17 +20,37 @@ enum ExitCode : int {
     kTainted = 6
 };
 
-struct RenderOptions {
+/// What overrides the scene's settings.
+struct SettingOptions {
+    std::string integrator, size, crop, color;
+    std::vector<std::string> sets;
+    std::optional<int> spp;
+    std::optional<std::uint64_t> seed;
+    bool aovs = false, full_float = false;
+};
+/// What is drawn over pictures. -1: not asked for.
+struct OverlayOptions {
+    int photons = -1, paths = -1, normals = -1;
+    bool hidden = false;
+    std::string map = "both";
+};
+struct RenderOptions : SettingOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::optional<int> spp;
-    std::string time, integrator, size, crop, color, passes, checkpoint, resume, log, stats, memory_limit;
-    std::vector<std::string> sets;
-    std::optional<std::uint64_t> seed;
+    std::string time, passes, checkpoint, resume, log, stats, memory_limit;
+    OverlayOptions overlay;
     int threads = 0;
     float exposure = 0;
     double checkpoint_every = 60;
-    bool aovs = false, quiet = false, full_float = false;
+    bool quiet = false;
+};
+struct PhotonsOptions : SettingOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string map = "both", memory_limit;
+    std::optional<int> count, paths;
+    std::uint64_t pass = 0;
+    bool quiet = false;
 };
 struct InfoOptions {
     std::string scene;
@@ -52,5 +72,6 @@ int run(RenderOptions const& o);
 int run(InfoOptions const& o);
 int run(MergeOptions const& o);
 int run(CompareOptions const& o);
+int run(PhotonsOptions const& o);
 
 }  // namespace nephroid::cli

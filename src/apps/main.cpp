@@ -50,22 +50,52 @@ CLI::Validator finite_number(bool positive) {
             "", "NUMBER"};
 }
 
+void declare_settings(CLI::App& app, SettingOptions& o, char const* integrators) {
+    app.add_option("--integrator", o.integrator, integrators);
+    app.add_option("--set", o.sets, "key=value: any setting of the scene; see below")
+        ->allow_extra_args(false);
+    app.add_option("--size", o.size, "WxH, resolution in pixels");
+    app.add_option("--color", o.color, "rgb or spectral")->check(CLI::IsMember({"rgb", "spectral"}));
+    app.add_option("--seed", o.seed, "seed of all random numbers")
+        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+    app.footer("Settings for --set:\n" + override_help());
+}
+
+constexpr char const* kIntegrators =
+    "path (the yardstick; caustics take long), photonmap (caustics and indirect light from photons: soon "
+    "smooth, a "
+    "little blurred), sppm (photons pass by pass, right in the end: caustics seen in mirrors and through "
+    "glass), "
+    "lightpath (from the lights to the camera: caustics on diffuse surfaces; sees nothing in mirrors or "
+    "through glass), "
+    "whitted, direct";
+
+void declare_overlay(CLI::App& app, OverlayOptions& o) {
+    app.add_flag(
+        "--show-photons{10000}", o.photons,
+        "draw photons over the pictures: --show-photons=N so many, with 20 paths and 200 normals unless they "
+        "are counted");
+    app.add_option("--show-paths", o.paths, "draw so many photon paths (white)")
+        ->check(whole_number(0, kLargestInt));
+    app.add_option("--show-normals", o.normals, "draw the surface's normals at so many photons (green)")
+        ->check(whole_number(0, kLargestInt));
+    app.add_option("--show-map", o.map, "whose photons and paths: global, caustic or both")
+        ->check(CLI::IsMember({"global", "caustic", "both"}));
+    app.add_flag("--show-hidden", o.hidden, "draw also what lies behind surfaces");
+}
+
 CLI::App const* declare(CLI::App& app, RenderOptions& o) {
     app.add_option("scene", o.scene, "scene file")->required();
     app.add_option("-o,--output", o.outputs,
                    "picture to write, once or more: .exr .png .jpg .pfm .hdr, or .film.exr for the film "
                    "itself (mergeable)")
         ->allow_extra_args(false);
-    app.add_option("--spp", o.spp, "samples per pixel, that is, passes")->check(whole_number(1, kLargestInt));
+    app.add_option("--spp", o.spp,
+                   "samples per pixel, that is, passes; with photonmap they are shared out among its passes")
+        ->check(whole_number(1, kLargestInt));
     app.add_option("--time", o.time, "stop after this long: 90s, 5m, 2h");
-    app.add_option("--integrator", o.integrator, "path, whitted or direct");
-    app.add_option("--set", o.sets, "key=value: any setting of the scene; see below")
-        ->allow_extra_args(false);
-    app.add_option("--size", o.size, "WxH, resolution in pixels");
+    declare_settings(app, o, kIntegrators);
     app.add_option("--crop", o.crop, "x0,y0,x1,y1: render only these pixels");
-    app.add_option("--color", o.color, "rgb or spectral")->check(CLI::IsMember({"rgb", "spectral"}));
-    app.add_option("--seed", o.seed, "seed of all random numbers")
-        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
     app.add_option("--threads", o.threads, "worker threads; the picture does not depend on it")
         ->check(CLI::Range(1, 1024));
     app.add_option("--passes", o.passes, "A:B, render passes A to B-1 only");
@@ -84,7 +114,7 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
     app.add_option("--memory-limit", o.memory_limit,
                    "refuse to begin what needs more memory: 8G, 500M; default: what the machine has left");
     app.add_option("--stats", o.stats, "write statistics as JSON to this file");
-    app.footer("Settings for --set:\n" + override_help());
+    declare_overlay(app, o.overlay);
     return &app;
 }
 
@@ -101,6 +131,29 @@ CLI::App const* declare(CLI::App& app, MergeOptions& o) {
         ->required();
     app.add_option("--exposure", o.exposure, "stops, for 8-bit pictures")->check(finite_number(false));
     app.add_flag("--float", o.full_float, "EXR channels as 32-bit floats");
+    return &app;
+}
+
+CLI::App const* declare(CLI::App& app, PhotonsOptions& o) {
+    app.add_option("scene", o.scene, "scene file")->required();
+    app.add_option("-o,--output", o.outputs, ".ply file; a second one for --paths")
+        ->allow_extra_args(false)
+        ->required();
+    app.add_option("--map", o.map, "whose photons: global, caustic or both")
+        ->check(CLI::IsMember({"global", "caustic", "both"}));
+    app.add_option(
+           "--count", o.count,
+           "photon paths to shoot into each map, instead of as many as a render would: what is emitted, "
+           "of which some is stored, once or more")
+        ->check(whole_number(0, kLargestInt));
+    app.add_option("--paths", o.paths,
+                   "write the first so many paths of each map, as edges (with one -o: instead)")
+        ->check(whole_number(0, kLargestInt));
+    app.add_option("--pass", o.pass, "whose photons: those of this pass, from 0 on")
+        ->check(whole_number(0, std::uint64_t{1} << 62));
+    declare_settings(app, o, "photonmap or sppm; a scene with another one is shot with photonmap's defaults");
+    app.add_option("--memory-limit", o.memory_limit, "refuse to begin what needs more memory: 8G, 500M");
+    app.add_flag("--quiet", o.quiet, "print errors and results only");
     return &app;
 }
 
@@ -156,6 +209,8 @@ int main(int argc, char** argv) {
         "  nephroid merge a.film.exr b.film.exr -o picture.exr\n"
         "  nephroid info scene.pbrt\n"
         "  nephroid compare a.exr b.exr\n"
+        "  nephroid render scene.pbrt --integrator sppm --spp 64     # caustics by photons\n"
+        "  nephroid photons scene.pbrt -o photons.ply                # to look at\n"
         "Exit codes: 0 good, 1 internal error, 2 bad input or usage, 3 a limit was hit, 4 I/O, 5 interrupted "
         "but resumable,\n"
         "6 finished but samples that were not finite had to be dropped.");
@@ -165,6 +220,7 @@ int main(int argc, char** argv) {
     InfoOptions info;
     MergeOptions merge;
     CompareOptions compare;
+    PhotonsOptions photons;
     commands.emplace_back(
         declare(*app.add_subcommand("render", "render a scene (.pbrt, .pbrt.gz, .ply, .obj)"), render),
         [&] { return run(render); });
@@ -181,8 +237,12 @@ int main(int argc, char** argv) {
     commands.emplace_back(
         declare(*app.add_subcommand("compare", "say how far apart two pictures are"), compare),
         [&] { return run(compare); });
+    commands.emplace_back(
+        declare(*app.add_subcommand("photons", "write the photons of a pass, or their paths, as PLY files"),
+                photons),
+        [&] { return run(photons); });
 
-    std::vector<std::string> const names{"render", "info", "merge", "compare"};
+    std::vector<std::string> const names{"render", "info", "merge", "compare", "photons"};
     if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
         say("nephroid: \"{}\" is no command; did you mean \"{}\"? (nephroid --help lists them)\n", argv[1],
             nearest(argv[1], names));

@@ -2,6 +2,7 @@
 
 #include "math/error.h"
 #include "render/render.h"
+#include "scene/match.h"
 #include "statistics.h"
 #include "world/estimate.h"
 
@@ -76,7 +77,40 @@ std::uint64_t left_in_control_group() {
 /// and most of them once more as halves.
 constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 190;
 
+/// A photon takes 48 bytes in a map, and 130 more while that is made (transport/photon_map.h). A path leaves two or three in the
+/// global map of a room whose walls give back 60 or 70 %, and one at most in the caustic map.
+constexpr std::uint64_t kGlobalPathBytes = 400, kCausticPathBytes = 160;
+/// Light tracing sums in double, by classes of light where layers are wanted, in the pass and in the one before; and keeps the
+/// splats of 131072 paths, some each (transport/light_path_image.h).
+constexpr std::uint64_t kSplatPixelBytes = 48, kSplatPixelBytesAovs = 240, kSplatPathBytes = 200,
+                        kSplatPathsKept = 131072;
+
+std::uint64_t count_or(int n, std::uint64_t otherwise) {
+    return n < 0 ? otherwise : static_cast<std::uint64_t>(n);
+}
+
 }  // namespace
+
+std::uint64_t MemoryNeed::total() const {
+    return saturated(saturated(program, photons), saturated(world, film));
+}
+
+std::uint64_t photon_need(Settings const& settings) {
+    FilmSettings const& film = settings.film;
+    std::uint64_t const pixels =
+        static_cast<std::uint64_t>(film.resolution.x) * static_cast<std::uint64_t>(film.resolution.y);
+    return match(settings.integrator, [&](auto const& i) -> std::uint64_t {
+        if constexpr (requires { i.shooting; }) {
+            std::uint64_t const global = count_or(i.shooting.global_paths, pixels);
+            return global * kGlobalPathBytes + count_or(i.shooting.caustic_paths, global) * kCausticPathBytes;
+        } else if constexpr (requires { i.paths; }) {
+            return pixels * (film.aovs ? kSplatPixelBytesAovs : kSplatPixelBytes) +
+                   std::min(count_or(i.paths, pixels), kSplatPathsKept) * kSplatPathBytes;
+        } else {
+            return 0;
+        }
+    });
+}
 
 MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs) {
     std::uint64_t const pixels = static_cast<std::uint64_t>(std::max(0, crop[1] - crop[0])) *
@@ -84,7 +118,7 @@ MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs) {
     std::uint64_t const encoding = pixels * (aovs ? kEncodingBytesAovs : kEncodingBytes);
     // A resumed film lies beside the new one for a moment, too: as large as what rendering takes.
     return {pages(1), minus(estimated_bytes(scene), held_bytes(scene)),
-            film_bytes(pixels, aovs) + std::max(encoding, render_bytes(pixels, aovs))};
+            film_bytes(pixels, aovs) + std::max(encoding, render_bytes(pixels, aovs)), 0};
 }
 
 std::uint64_t parse_bytes(std::string const& option, std::string const& text) {
@@ -116,15 +150,18 @@ std::uint64_t available_memory() {
 
 void check_memory(MemoryNeed const& need, std::optional<std::uint64_t> limit) {
     std::uint64_t const most = limit ? *limit : saturated(available_memory(), need.program);
-    std::uint64_t const total = saturated(need.program, saturated(need.world, need.film));
+    std::uint64_t const total = need.total();
     if (total <= most) return;
+    std::string const photons =
+        need.photons > 0 ? fmt::format(", {} for photons", bytes_text(need.photons)) : std::string();
     throw Error(
         ErrorKind::Limit,
         fmt::format("not enough memory: about {} are needed ({} in use, {} for the compiled scene, {} for "
-                    "the film), and {} are {}; render fewer pixels (--size, --crop), a simpler scene, or "
+                    "the film{}), and {} are {}; render fewer pixels (--size, --crop), a simpler scene{}, or "
                     "raise --memory-limit if you know better",
                     bytes_text(total), bytes_text(need.program), bytes_text(need.world),
-                    bytes_text(need.film), bytes_text(most), limit ? "allowed" : "available"));
+                    bytes_text(need.film), photons, bytes_text(most), limit ? "allowed" : "available",
+                    need.photons > 0 ? ", fewer photons a pass" : ""));
 }
 
 }  // namespace nephroid::cli

@@ -15,9 +15,14 @@ struct MemoryNeed {
     std::uint64_t program = 0;  // what is in use now, the scene as read included
     std::uint64_t world = 0;    // what compiling adds
     std::uint64_t film = 0;     // the sums, and what it takes to render and to write them
-    [[nodiscard]] std::uint64_t total() const { return program + world + film; }
+    std::uint64_t photons = 0;  // maps of a pass, made while those of the pass before are still there
+    [[nodiscard]] std::uint64_t total() const;  // saturated
 };
+/// All but the photons.
 MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs);
+/// What photons may take, by how many paths are shot in a pass: how many photons a path leaves is not known before. 0 for
+/// integrators that shoot none.
+std::uint64_t photon_need(Settings const& settings);
 
 /// "8G", "500M", "2GiB", "1000000" bytes. Throws Error(Input).
 std::uint64_t parse_bytes(std::string const& option, std::string const& text);

@@ -3,6 +3,7 @@
 #include "film/develop.h"
 #include "math/error.h"
 #include "memory.h"
+#include "names.h"
 #include "outputs.h"
 #include "targets.h"
 
@@ -56,8 +57,9 @@ int run(MergeOptions const& o) {
     DevelopSettings develop;
     develop.exposure = o.exposure;
     develop.half_float = !o.full_float;
-    develop.metadata = {{"renderer", "nephroid 0.1.0"},
-                        {"samplesPerPixel", std::to_string(film.passes().count())}};
+    develop.metadata = {
+        {"renderer", "nephroid 0.1.0"},
+        {"samplesPerPixel", std::to_string(film.passes().count() * samples_of_a_pass(first.words))}};
     auto const errors =
         write_outputs(o.outputs, film, develop, [](std::string const& text) { say("nephroid: {}\n", text); });
     for (std::string const& error : errors) say("nephroid: {}\n", error);

@@ -4,7 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
+#include <type_traits>
+
 namespace nephroid::cli {
+
+namespace {
+/// A word on how many samples of a pixel are in a pass: --spp shared out among the passes.
+constexpr char const* kSamplesOfAPass = "--spp / --set passes";
+}  // namespace
 
 std::string name_of(Integrator const& i) {
     return match(
@@ -25,17 +34,74 @@ std::string name_of(Filter const& f) {
         [](LanczosSincFilter const&) { return "sinc"; });
 }
 
+namespace {
+
+std::string name_of(Kernel k) {
+    constexpr std::array kNames{"box", "cone", "epanechnikov", "gaussian"};
+    return kNames[static_cast<std::size_t>(k)];
+}
+std::string name_of(PhotonView v) {
+    constexpr std::array kNames{"none", "global", "caustic", "both", "radiance"};
+    return kNames[static_cast<std::size_t>(v)];
+}
+std::string word(bool b) { return b ? "true" : "false"; }
+/// -1 and 0 are what the program chooses.
+std::string count_word(int n) { return n < 0 ? "automatic" : std::to_string(n); }
+std::string radius_word(float r) { return r > 0 ? fmt::format("{}", r) : "automatic"; }
+
+}  // namespace
+
+SettingWords photon_words(Integrator const& integrator) {
+    SettingWords words;
+    match(integrator, [&](auto const& i) {
+        if constexpr (requires { i.shooting; }) {
+            constexpr bool kSppm = std::is_same_v<std::remove_cvref_t<decltype(i)>, SppmIntegrator>;
+            words = {{kSppm ? "photonsperiteration" : "indirectphotons", count_word(i.shooting.global_paths)},
+                     {"causticphotons", count_word(i.shooting.caustic_paths)},
+                     {"maxphotondepth", std::to_string(i.shooting.max_depth)},
+                     {"aim", word(i.shooting.aim)},
+                     {"nused", i.estimates.nused > 0 ? std::to_string(i.estimates.nused) : "all"},
+                     {"radius", radius_word(i.estimates.radius)},
+                     {"causticradius", radius_word(i.estimates.caustic_radius)},
+                     {"kernel", name_of(i.estimates.kernel)},
+                     {"edgecorrection", word(i.estimates.edge_correction)},
+                     {"alpha", fmt::format("{}", i.alpha)},
+                     {"visualize", name_of(i.visualize)}};
+        }
+        if constexpr (requires { i.gather_samples; }) {
+            words["finalgather"] = word(i.final_gather);
+            words["finalgathersamples"] = std::to_string(i.gather_samples);
+        }
+        if constexpr (requires { i.paths; }) words["lightpaths"] = count_word(i.paths);
+    });
+    return words;
+}
+
 SettingWords words_of(Settings const& s) {
     Vec2 const radius = match(s.filter, [](auto const& f) { return f.radius; });
-    return {
+    SettingWords words{
         {"--color", s.color == ColorMode::Rgb ? "rgb" : "spectral"},
         {"--integrator", name_of(s.integrator)},
         {"--set maxdepth", std::to_string(match(s.integrator, [](auto const& i) { return i.max_depth; }))},
         {"--set sampler", name_of(s.sampler)},
         {"--set filter", name_of(s.filter)},
-        {"--set radius", fmt::format("{} x {}", radius.x, radius.y)},
+        {"--set filterradius", fmt::format("{} x {}", radius.x, radius.y)},
         {"--set iso", fmt::format("{}", s.film.iso)},
         {"--set maxcomponentvalue", fmt::format("{}", s.film.max_component)}};
+    for (auto const& [key, value] : photon_words(s.integrator)) words["--set " + key] = value;
+    if (std::holds_alternative<PhotonMapIntegrator>(s.integrator))
+        words[kSamplesOfAPass] = std::to_string(samples_per_pass(s));
+    return words;
+}
+
+std::vector<std::string> source_names(World const&) { return {}; }
+
+std::uint64_t samples_of_a_pass(SettingWords const& words) {
+    auto const found = words.find(kSamplesOfAPass);
+    std::uint64_t n = 1;
+    if (found != words.end())
+        std::from_chars(found->second.data(), found->second.data() + found->second.size(), n);
+    return n;
 }
 
 }  // namespace nephroid::cli

@@ -3,15 +3,24 @@
 
 #include "film/film.h"
 #include "scene/settings.h"
+#include "world/world.h"
 
 #include <string>
+#include <vector>
 
 namespace nephroid::cli {
 
 std::string name_of(Integrator const& integrator);
 std::string name_of(Sampler const& sampler);
 std::string name_of(Filter const& filter);
+/// Of an integrator that shoots photons, by the keys of --set; empty for others.
+SettingWords photon_words(Integrator const& integrator);
 /// What a film says about its render, so that another one can be told apart by option and value.
 SettingWords words_of(Settings const& settings);
+/// … and back: samples of a pixel in each of its passes.
+std::uint64_t samples_of_a_pass(SettingWords const& words);
+
+/// Of the lights that photons are counted by, in that order; shorter where names are not known.
+std::vector<std::string> source_names(World const& world);
 
 }  // namespace nephroid::cli

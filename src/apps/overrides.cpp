@@ -1,13 +1,14 @@
 #include "overrides.h"
 
 #include "math/error.h"
+#include "override_keys.h"
 #include "scene/match.h"
 #include "words.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
-#include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace nephroid::cli {
@@ -16,67 +17,27 @@ namespace {
 
 [[noreturn]] void refuse(std::string const& message) { throw Error(ErrorKind::Input, message); }
 
-int to_int(std::string const& key, std::string const& text, int least) {
-    int v = 0;
-    auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
-        refuse(fmt::format("--set {}: \"{}\" is not a whole number", key, text));
-    if (v < least) refuse(fmt::format("--set {}: {} is less than {}", key, v, least));
-    return v;
-}
-float to_positive(std::string const& key, std::string const& text) {
-    float v = 0;
-    auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
-        refuse(fmt::format("--set {}: \"{}\" is not a number", key, text));
-    if (!(v > 0)) refuse(fmt::format("--set {}: {} is not above 0", key, v));
-    return v;
-}
-bool to_bool(std::string const& key, std::string const& text) {
-    if (text == "true" || text == "1" || text == "on") return true;
-    if (text == "false" || text == "0" || text == "off") return false;
-    refuse(fmt::format("--set {}: \"{}\" is neither true nor false", key, text));
-}
-template <class T>
-T to_choice(std::string const& key, std::string const& text,
-            std::vector<std::pair<char const*, T>> const& choices) {
-    std::string known;
-    for (auto const& [name, value] : choices) {
-        if (text == name) return value;
-        known += known.empty() ? name : std::string(", ") + name;
-    }
-    refuse(fmt::format("--set {}: unknown \"{}\"; choose one of {}", key, text, known));
+/// Bounces; sppm's photons go as far, unless they were told otherwise.
+void set_max_depth(Settings& s, int depth) {
+    match(s.integrator, [&](auto& i) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(i)>, SppmIntegrator>)
+            if (i.shooting.max_depth == i.max_depth) i.shooting.max_depth = depth;
+        i.max_depth = depth;
+    });
 }
 
-/// The alternative T of a setting, or a refusal that says which one would have the key.
-template <class T, class Variant>
-T& alternative(Variant& v, std::string const& key, char const* what) {
-    if (auto* t = std::get_if<T>(&v)) return *t;
-    refuse(fmt::format("--set {}: only {} has that", key, what));
-}
-
-struct Key {
-    char const* name;
-    char const* help;
-    std::function<void(Settings&, std::string const&)> set;
-};
-
-std::vector<Key> const& keys() {
+std::vector<OverrideKey> own_keys() {
     auto const path = [](Settings& s, char const* key) -> PathIntegrator& {
         return alternative<PathIntegrator>(s.integrator, key, "the path integrator");
     };
     auto const strata = [](Settings& s, char const* key) -> StratifiedSampler& {
         return alternative<StratifiedSampler>(s.sampler, key, "the stratified sampler");
     };
-    static std::vector<Key> const list{
+    return {
         {"maxdepth", "bounces at most",
-         [](Settings& s, std::string const& v) {
-             match(s.integrator, [&](auto& i) { i.max_depth = to_int("maxdepth", v, 0); });
-         }},
+         [](Settings& s, std::string const& v) { set_max_depth(s, to_int("maxdepth", v, 0)); }},
         {"segments", "path segments at most: maxdepth + 1",
-         [](Settings& s, std::string const& v) {
-             match(s.integrator, [&](auto& i) { i.max_depth = to_int("segments", v, 1) - 1; });
-         }},
+         [](Settings& s, std::string const& v) { set_max_depth(s, to_int("segments", v, 1) - 1); }},
         {"roulette", "throughput, fixed or none",
          [path](Settings& s, std::string const& v) {
              path(s, "roulette").roulette.kind =
@@ -85,11 +46,17 @@ std::vector<Key> const& keys() {
                                           {"fixed", RouletteKind::Fixed},
                                           {"none", RouletteKind::None}});
          }},
-        {"alpha", "survival probability of the fixed roulette",
+        {"alpha",
+         "survival probability of the fixed roulette; photonmap, sppm: how radii shrink, below 1 so that "
+         "they do",
          [path](Settings& s, std::string const& v) {
-             float const alpha = to_positive("alpha", v);
-             if (alpha > 1) refuse(fmt::format("--set alpha: {} is no probability: it is above 1", alpha));
-             path(s, "alpha").roulette.alpha = alpha;
+             float const alpha = to_share("alpha", v);
+             match(s.integrator, [&](auto& i) {
+                 if constexpr (requires { i.alpha; })
+                     i.alpha = alpha;
+                 else
+                     path(s, "alpha").roulette.alpha = alpha;
+             });
          }},
         {"samplelights", "false: the naive tracer",
          [path](Settings& s, std::string const& v) {
@@ -129,9 +96,9 @@ std::vector<Key> const& keys() {
                                            {"mitchell", MitchellFilter{}},
                                            {"sinc", LanczosSincFilter{}}});
          }},
-        {"radius", "of the filter, pixels",
+        {"filterradius", "of the filter, pixels",
          [](Settings& s, std::string const& v) {
-             float const r = to_positive("radius", v);
+             float const r = to_positive("filterradius", v);
              match(s.filter, [&](auto& f) { f.radius = Vec2{r, r}; });
          }},
         {"iso", "film speed; brightness is proportional",
@@ -141,17 +108,64 @@ std::vector<Key> const& keys() {
              s.film.max_component = to_positive("maxcomponentvalue", v);
          }},
     };
+}
+
+std::vector<OverrideKey> const& keys() {
+    static std::vector<OverrideKey> const list = [] {
+        std::vector<OverrideKey> all = own_keys();
+        for (OverrideKey& k : photon_keys()) all.push_back(std::move(k));
+        return all;
+    }();
     return list;
 }
 
+template <class T>
+void switch_to(Settings& s) {
+    if (!std::holds_alternative<T>(s.integrator)) s.integrator = T{};
+}
+
 }  // namespace
+
+void refuse_set(std::string const& key, std::string const& why) {
+    refuse(fmt::format("--set {}: {}", key, why));
+}
+int to_int(std::string const& key, std::string const& text, int least) {
+    int v = 0;
+    auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
+        refuse_set(key, fmt::format("\"{}\" is not a whole number up to 2147483647", text));
+    if (v < least) refuse_set(key, fmt::format("{} is less than {}", v, least));
+    return v;
+}
+float to_number(std::string const& key, std::string const& text) {
+    float v = 0;
+    auto const r = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
+        refuse_set(key, fmt::format("\"{}\" is not a number", text));
+    return v;
+}
+float to_positive(std::string const& key, std::string const& text) {
+    float const v = to_number(key, text);
+    if (!(v > 0)) refuse_set(key, fmt::format("{} is not above 0", v));
+    return v;
+}
+float to_share(std::string const& key, std::string const& text) {
+    float const v = to_positive(key, text);
+    if (v > 1) refuse_set(key, fmt::format("{} is above 1", v));
+    return v;
+}
+bool to_bool(std::string const& key, std::string const& text) {
+    if (text == "true" || text == "1" || text == "on") return true;
+    if (text == "false" || text == "0" || text == "off") return false;
+    refuse_set(key, fmt::format("\"{}\" is neither true nor false", text));
+}
 
 void apply_override(Settings& settings, std::string const& assignment) {
     auto const eq = assignment.find('=');
     if (eq == std::string::npos) refuse(fmt::format("--set {}: expected key=value", assignment));
     std::string const name = assignment.substr(0, eq);
     std::vector<std::string> names;
-    for (Key const& k : keys()) {
+    for (OverrideKey const& k : keys()) {
         if (name == k.name) {
             k.set(settings, assignment.substr(eq + 1));
             return;
@@ -163,40 +177,38 @@ void apply_override(Settings& settings, std::string const& assignment) {
 }
 
 void set_integrator(Settings& settings, std::string const& name) {
-    int const depth = match(settings.integrator, [](auto const& i) { return i.max_depth; });
-    if (name == "path") {
-        if (!std::holds_alternative<PathIntegrator>(settings.integrator))
-            settings.integrator = PathIntegrator{};
-    } else if (name == "whitted") {
+    Integrator const before = settings.integrator;
+    if (name == "path")
+        switch_to<PathIntegrator>(settings);
+    else if (name == "whitted")
         settings.integrator = WhittedIntegrator{};
-    } else if (name == "direct" || name == "directlighting") {
+    else if (name == "direct" || name == "directlighting")
         settings.integrator = DirectIntegrator{};
-    } else if (name == "photonmap") {
-        if (!std::holds_alternative<PhotonMapIntegrator>(settings.integrator)) {
-            settings.integrator = PhotonMapIntegrator{};
-            settings.color = ColorMode::Rgb;
-            return;  // its depths have other meanings
-        }
-    } else if (name == "sppm") {
-        if (!std::holds_alternative<SppmIntegrator>(settings.integrator)) {
-            SppmIntegrator i;
-            i.shooting.max_depth = depth;
-            settings.integrator = i;
-        }
-    } else if (name == "lightpath") {
-        if (!std::holds_alternative<LightPathIntegrator>(settings.integrator))
-            settings.integrator = LightPathIntegrator{};
-    } else {
+    else if (name == "photonmap")
+        switch_to<PhotonMapIntegrator>(settings);
+    else if (name == "sppm")
+        switch_to<SppmIntegrator>(settings);
+    else if (name == "lightpath")
+        switch_to<LightPathIntegrator>(settings);
+    else
         refuse(fmt::format(
-            "--integrator {}: unknown; choose one of path, whitted, direct, photonmap, sppm, lightpath",
-            name));
+            "--integrator {}: unknown; did you mean \"{}\"? Choose one of path, whitted, direct, "
+            "photonmap, sppm, lightpath",
+            name, nearest(name, {"path", "whitted", "direct", "photonmap", "sppm", "lightpath"})));
+    // The depth of photonmap counts something else.
+    auto const* old_map = std::get_if<PhotonMapIntegrator>(&before);
+    if (!old_map && !std::holds_alternative<PhotonMapIntegrator>(settings.integrator)) {
+        int const depth = match(before, [](auto const& i) { return i.max_depth; });
+        match(settings.integrator, [&](auto& i) { i.max_depth = depth; });
     }
-    match(settings.integrator, [&](auto& i) { i.max_depth = depth; });
+    if (settings.integrator.index() == before.index()) return;
+    if (auto* i = std::get_if<SppmIntegrator>(&settings.integrator)) i->shooting.max_depth = i->max_depth;
+    if (!settings.color_given) settings.color = default_color(settings.integrator);
 }
 
 std::string override_help() {
     std::string text;
-    for (Key const& k : keys()) text += fmt::format("  {:<18} {}\n", k.name, k.help);
+    for (OverrideKey const& k : keys()) text += fmt::format("  {:<20} {}\n", k.name, k.help);
     return text;
 }
 

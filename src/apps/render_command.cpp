@@ -1,3 +1,4 @@
+#include "asked_settings.h"
 #include "checkpoint_guard.h"
 #include "commands.h"
 #include "console.h"
@@ -9,6 +10,8 @@
 #include "names.h"
 #include "outputs.h"
 #include "overrides.h"
+#include "photon_overlay.h"
+#include "photon_statistics.h"
 #include "progress.h"
 #include "read/read.h"
 #include "render/render.h"
@@ -37,30 +40,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(std::string const& message) { throw Error(ErrorKind::Input, message); }
 
-/// Numbers between separators, all of the text or nothing.
-template <class T>
-std::vector<T> numbers(std::string const& option, std::string const& text, char separator,
-                       std::size_t count) {
-    std::vector<T> out;
-    char const* p = text.data();
-    char const* const end = p + text.size();
-    while (p < end) {
-        T v{};
-        auto const r = std::from_chars(p, end, v);
-        if (r.ec != std::errc{}) break;
-        out.push_back(v);
-        p = r.ptr;
-        if (p < end && *p == separator && p + 1 < end)
-            ++p;
-        else
-            break;
-    }
-    if (p != end || out.size() != count)
-        refuse(
-            fmt::format("{} {}: expected {} numbers with '{}' between them", option, text, count, separator));
-    return out;
-}
-
 /// "90", "90s", "5m", "2h".
 double seconds_of(std::string const& text) {
     double v = 0;
@@ -74,33 +53,6 @@ double seconds_of(std::string const& text) {
 
 double since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-}
-
-Settings settings_of(RenderOptions const& o, Scene const& scene) {
-    Settings s = scene.settings;
-    if (!o.integrator.empty()) set_integrator(s, o.integrator);
-    for (std::string const& set : o.sets) apply_override(s, set);
-    if (!o.size.empty()) {
-        auto const v = numbers<int>("--size", o.size, 'x', 2);
-        if (v[0] < 1 || v[1] < 1) refuse(fmt::format("--size {}: both sides must be at least 1", o.size));
-        s.film.resolution = {v[0], v[1]};
-        s.film.crop.reset();
-    }
-    if (!o.crop.empty()) {
-        auto const v = numbers<int>("--crop", o.crop, ',', 4);
-        Vec2i const r = s.film.resolution;
-        if (v[0] < 0 || v[1] < 0 || v[0] >= v[2] || v[1] >= v[3] || v[2] > r.x || v[3] > r.y)
-            refuse(
-                fmt::format("--crop {}: not x0,y0,x1,y1 with x0 < x1 and y0 < y1 inside the picture of {}x{}",
-                            o.crop, r.x, r.y));
-        s.film.crop = std::array<int, 4>{v[0], v[2], v[1], v[3]};
-    }
-    if (!o.color.empty()) s.color = o.color == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
-    if (o.seed) s.seed = *o.seed;
-    if (o.spp) s.spp = *o.spp;
-    if (o.aovs) s.film.aovs = true;
-    if (o.full_float) s.film.half_float = false;
-    return s;
 }
 
 /// Far beyond what anyone renders, and sums of two such numbers still fit.
@@ -123,13 +75,33 @@ PassRange passes_of(RenderOptions const& o, Settings const& s) {
 std::map<std::string, std::string> metadata(RenderJob const& job, Film const& film,
                                             RunStatistics const& stats) {
     Settings const& s = job.settings();
-    return {{"renderer", "nephroid 0.1.0"},
-            {"integrator", name_of(s.integrator)},
-            {"colorMode", s.color == ColorMode::Rgb ? "rgb" : "spectral"},
-            {"seed", std::to_string(s.seed)},
-            {"samplesPerPixel", std::to_string(film.passes().count())},
-            {"sceneHash", job.world().scene_hash()},
-            {"renderSeconds", fmt::format("{:.3f}", stats.render_seconds)}};
+    std::map<std::string, std::string> m{
+        {"renderer", "nephroid 0.1.0"},
+        {"integrator", name_of(s.integrator)},
+        {"colorMode", s.color == ColorMode::Rgb ? "rgb" : "spectral"},
+        {"seed", std::to_string(s.seed)},
+        {"samplesPerPixel",
+         std::to_string(film.passes().count() * static_cast<std::uint64_t>(samples_per_pass(s)))},
+        {"sceneHash", job.world().scene_hash()},
+        {"renderSeconds", fmt::format("{:.3f}", stats.render_seconds)}};
+    for (auto const& [key, value] : photon_words(s.integrator)) m["photons." + key] = value;
+    return m;
+}
+
+/// Passes whose wavelengths all paths share give the colours of those wavelengths until there are enough of them.
+constexpr std::uint64_t kEnoughWavelengths = 16;
+std::string few_wavelengths(RenderJob const& job, Film const& film) {
+    Settings const& s = job.settings();
+    std::uint64_t const n = film.passes().count();
+    if (!job.prepares() || s.color == ColorMode::Rgb || n == 0 || n >= kEnoughWavelengths) return {};
+    return fmt::format(
+        "{} in spectral colours has four wavelengths a pass, and {} pass{} tint the picture: render {} or "
+        "more, or use --color rgb",
+        name_of(s.integrator), n, n == 1 ? "" : "es", kEnoughWavelengths);
+}
+
+bool stored_nothing(RenderJob const& job, PhotonReport const& report) {
+    return job.photon_plan() && total_of(report.global).stored + total_of(report.caustic).stored == 0;
 }
 
 /// The pixels x0 x1 y0 y1 that will be rendered; RenderJob has the last word.
@@ -230,7 +202,9 @@ int run(RenderOptions const& o) {
     }
     check_output_size(outputs, crop_of(settings));
     check_files(o, outputs, scene);
-    check_memory(memory_need(scene, crop_of(settings), settings.film.aovs), memory_limit);
+    MemoryNeed need = memory_need(scene, crop_of(settings), settings.film.aovs);
+    need.photons = photon_need(settings);
+    check_memory(need, memory_limit);
     stats.read_seconds = lap();
 
     scene.settings = settings;  // so that overrides are validated like the rest
@@ -287,6 +261,16 @@ int run(RenderOptions const& o) {
             fmt::format("out of memory after {} passes; what there is is written", film.passes().count()));
     stats.render_seconds = result.seconds;
     lap();
+    if (result.passes > 0 && world.counts().lights > 0 && stored_nothing(job, result.photons))
+        log.note(fmt::format(
+            "{}: warning: no photon was stored: nothing that is not a mirror or glass was met, or "
+            "none were to be shot; light that maps would show is missing (black)",
+            o.scene));
+
+    bool const pictures =
+        !std::all_of(outputs.begin(), outputs.end(), is_film_name);  // films may yet be merged
+    if (std::string const few = few_wavelengths(job, film); pictures && !few.empty())
+        log.note(fmt::format("{}: warning: {}", o.scene, few));
 
     bool const interrupted = result.end == RenderEnd::Interrupted;
     if (film.passes().empty() && out_of_memory) return kLimit;
@@ -305,6 +289,11 @@ int run(RenderOptions const& o) {
     develop.exposure = o.exposure;
     develop.in_a_hurry = interrupted;
     develop.metadata = metadata(job, film, stats);
+    Image overlay;
+    if (draws(o.overlay) && pictures && !interrupted) {
+        overlay = draw_photons(RenderJob(world, photon_settings(settings)), passes.begin, o.overlay);
+        develop.over = &overlay;
+    }
     for (std::string const& error :
          write_outputs(outputs, film, develop, [&](std::string const& text) { log.warning(text); }))
         log.error(error);
@@ -319,7 +308,10 @@ int run(RenderOptions const& o) {
     stats.film_bytes = film.bytes();
     stats.passes = result.passes;
     stats.samples = result.passes * static_cast<std::uint64_t>(crop[1] - crop[0]) *
-                    static_cast<std::uint64_t>(crop[3] - crop[2]);
+                    static_cast<std::uint64_t>(crop[3] - crop[2]) *
+                    static_cast<std::uint64_t>(samples_per_pass(settings));
+    stats.photons = result.photons;
+    stats.photon_sources = source_names(world);
     stats.dropped = film.dropped();
     stats.rejected = film.rejected();
     stats.threads =

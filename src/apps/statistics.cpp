@@ -1,5 +1,7 @@
 #include "statistics.h"
 
+#include "photon_statistics.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -17,9 +19,10 @@ std::string json_text(nlohmann::json const& json, int indentation) {
     return json.dump(indentation, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+double rate(std::uint64_t n, double seconds) { return seconds > 0 ? static_cast<double>(n) / seconds : 0; }
+
 namespace {
 constexpr char const* kKinds[3] = {"camera", "bounce", "shadow"};
-double rate(std::uint64_t n, double seconds) { return seconds > 0 ? static_cast<double>(n) / seconds : 0; }
 }  // namespace
 
 std::string table(RunStatistics const& s) {
@@ -44,6 +47,7 @@ std::string table(RunStatistics const& s) {
         bytes_text(s.memory.meshes), bytes_text(s.memory.bvh), bytes_text(s.memory.images), s.image_files,
         bytes_text(s.memory.spectra), bytes_text(s.memory.lights), bytes_text(s.memory.instances),
         bytes_text(s.film_bytes));
+    t += photon_table(s);
     if (s.dropped > 0)
         t += fmt::format("DROPPED {} samples that were not finite: the picture is tainted\n", s.dropped);
     if (s.rejected > 0)
@@ -68,6 +72,7 @@ nlohmann::json to_json(RunStatistics const& s) {
     j["world"] = {{"objects", s.counts.objects},   {"triangles", s.counts.triangles},
                   {"analytic", s.counts.analytic}, {"instances", s.counts.instances},
                   {"lights", s.counts.lights},     {"image_files", s.image_files}};
+    if (shot_photons(s)) j["photons"] = photons_to_json(s);
     j["threads"] = s.threads;
     j["passes"] = s.passes;
     j["samples"] = s.samples;

@@ -184,16 +184,44 @@ ExrFile develop_exr(Film const& film, DevelopSettings const& settings) {
     return file;
 }
 
+namespace {
+
+/// value(x, y, c) of the beauty, before exposure, with what is drawn over it.
+template <class Value>
+void lay_over(DevelopSettings const& settings, Value&& value) {
+    Image const* over = settings.over;
+    if (!over) return;
+    float const undo = std::exp2(-settings.exposure);
+    for (int y = 0; y < over->height(); ++y)
+        for (int x = 0; x < over->width(); ++x) {
+            float const alpha = over->get(x, y, 3);
+            if (alpha <= 0) continue;
+            for (int c = 0; c < 3; ++c) {
+                float& v = value(x, y, c);
+                v = v * (1 - alpha) + over->get(x, y, c) * undo;
+            }
+        }
+}
+
+}  // namespace
+
 std::vector<std::string> write_picture(std::filesystem::path const& path, Film const& film,
                                        DevelopSettings const& settings) {
     std::string const extension = lower_extension(path);
     if (extension == ".exr") {
         ExrFile file = all_layers(film, settings);
+        lay_over(settings, [&](int x, int y, int c) -> float& {
+            // The first three channels are R, G and B (develop_beauty_exr).
+            return file.channels[static_cast<std::size_t>(c)]
+                .data[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width()) +
+                      static_cast<std::size_t>(x)];
+        });
         auto widened = widen(file);
         write_exr(path, file, {}, settings.in_a_hurry ? ExrCompression::Fast : ExrCompression::Zip);
         return widened;
     }
     Image image = develop(film);
+    lay_over(settings, [&](int x, int y, int c) -> float& { return image.floats()[image.index(x, y, c)]; });
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
         float const gain = std::exp2(settings.exposure);
         for (float& v : image.floats()) v *= gain;

@@ -1,5 +1,6 @@
 #include "model/assets.h"
 
+#include "casts.h"
 #include "measured_tables.h"
 #include "scene/fields.h"
 #include "scene/match.h"
@@ -165,9 +166,11 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
             d.textured = needs_point(mix->amount) || first.textured || second.textured;
             d.passes = first.passes || second.passes;
             d.encloses = first.encloses || second.encloses;
+            d.casts = first.casts || second.casts;
             return d;
         }
         d.passes = std::holds_alternative<InterfaceMaterial>(material.kind);
+        d.casts = may_be_specular(*this, material.kind);
         d.perturbed = material.displacement.valid() || material.normal_map.image.valid();
         d.oriented = match(material.kind, [](auto const& m) { return is_oriented(m); });
         // The random walks of coats are keyed by the place.

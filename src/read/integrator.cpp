@@ -96,6 +96,7 @@ PathIntegrator random_walk(Params& p) {
     return i;
 }
 
+/// A number of things, at least `least`; or `otherwise`, which may be -1 for what follows from something else.
 int count(Params& p, char const* name, int otherwise, int least) {
     int const n = p.integer(name, otherwise);
     if (n < least && n != otherwise)
@@ -107,37 +108,46 @@ float radius(Params& p, char const* name) {
     if (!(r >= 0)) p.fail(std::string("\"") + name + "\" must be above 0, or 0 for one that suits the scene");
     return r;
 }
+/// One parameter of two names.
+char const* either(Params& p, char const* name, char const* other) {
+    if (p.find(name) && p.find(other))
+        p.fail(std::string("give either \"") + name + "\" or \"" + other + "\", not both");
+    return p.find(other) ? other : name;
+}
 
 /// What both photon integrators read; names of pbrt-v2's photonmap where it has one.
-void photon_parameters(Params& p, PhotonShooting& shooting, PhotonEstimates& estimates, float& alpha,
-                       PhotonView& view) {
+template <class PhotonIntegrator>
+void photon_parameters(Params& p, PhotonIntegrator& i) {
     constexpr std::array kKernels{Kernel::Box, Kernel::Cone, Kernel::Epanechnikov, Kernel::Gaussian};
     constexpr std::array kViews{PhotonView::None, PhotonView::Global, PhotonView::Caustic, PhotonView::Both,
                                 PhotonView::Radiance};
-    shooting.caustic_paths = count(p, "causticphotons", shooting.caustic_paths, 0);
-    shooting.max_depth = count(p, "maxphotondepth", shooting.max_depth, 0);
-    shooting.aim = p.boolean("aim", shooting.aim);
-    estimates.nused = count(p, "nused", estimates.nused, 0);
-    estimates.caustic_radius = radius(p, "causticradius");
-    estimates.kernel = kKernels[p.choice("kernel", {"box", "cone", "epanechnikov", "gaussian"},
-                                         static_cast<std::size_t>(estimates.kernel))];
-    estimates.edge_correction = p.boolean("edgecorrection", estimates.edge_correction);
-    alpha = p.number("alpha", alpha);
-    if (!(alpha > 0 && alpha <= 1)) p.fail("\"alpha\" must be above 0 and at most 1");
-    view = kViews[p.choice("visualize", {"none", "global", "caustic", "both", "radiance"}, 0)];
+    i.shooting.caustic_paths = count(p, "causticphotons", i.shooting.caustic_paths, 0);
+    i.shooting.max_depth = count(p, "maxphotondepth", i.shooting.max_depth, 0);
+    i.shooting.aim = p.boolean("aim", i.shooting.aim);
+    i.estimates.nused = count(p, "nused", i.estimates.nused, 0);
+    i.estimates.caustic_radius = radius(p, "causticradius");
+    i.estimates.kernel = kKernels[p.choice("kernel", {"box", "cone", "epanechnikov", "gaussian"},
+                                           static_cast<std::size_t>(i.estimates.kernel))];
+    i.estimates.edge_correction = p.boolean("edgecorrection", i.estimates.edge_correction);
+    i.alpha = p.number("alpha", i.alpha);
+    if (!(i.alpha > 0 && i.alpha <= 1)) p.fail("\"alpha\" must be above 0 and at most 1");
+    i.visualize = kViews[p.choice("visualize", {"none", "global", "caustic", "both", "radiance"}, 0)];
+    i.lights = light_sampling(p);
 }
 
-/// pbrt-v2's, where causticphotons and indirectphotons were wanted in the maps: here they are emitted.
+/// pbrt-v2's. There causticphotons and indirectphotons are to be stored, and shooting goes on until they are; here they are the
+/// paths that a pass emits, which the law asks for.
 PhotonMapIntegrator photon_map(Params& p) {
     PhotonMapIntegrator i;
-    i.max_depth = count(p, "maxspeculardepth", i.max_depth, 0);
+    i.max_depth = count(p, either(p, "maxspeculardepth", "maxdepth"), i.max_depth, 0);
     i.shooting.global_paths = count(p, "indirectphotons", i.shooting.global_paths, 0);
-    i.estimates.radius = p.find("radius") ? radius(p, "radius") : radius(p, "maxdist");
-    photon_parameters(p, i.shooting, i.estimates, i.alpha, i.visualize);
+    i.estimates.radius = radius(p, either(p, "radius", "maxdist"));
+    photon_parameters(p, i);
     i.final_gather = p.boolean("finalgather", i.final_gather);
     i.gather_samples = count(p, "finalgathersamples", i.gather_samples, 1);
     i.passes = count(p, "passes", i.passes, 1);
-    i.lights = light_sampling(p);
+    if (p.find("gatherangle"))
+        p.note("\"gatherangle\" changes nothing: gather rays follow the surface alone");
     return i;
 }
 
@@ -146,10 +156,11 @@ SppmIntegrator sppm(Params& p) {
     SppmIntegrator i;
     i.max_depth = max_depth(p);
     i.shooting.max_depth = i.max_depth;
-    i.shooting.global_paths = count(p, "photonsperiteration", i.shooting.global_paths, 0);
+    // 0 is pbrt's other word for as many as there are pixels.
+    int const paths = count(p, "photonsperiteration", i.shooting.global_paths, 0);
+    i.shooting.global_paths = paths == 0 ? -1 : paths;
     i.estimates.radius = radius(p, "radius");
-    photon_parameters(p, i.shooting, i.estimates, i.alpha, i.visualize);
-    i.lights = light_sampling(p);
+    photon_parameters(p, i);
     return i;
 }
 

@@ -2,6 +2,7 @@
 #include "pbrt_reader.h"
 
 #include "number.h"
+#include "scene/match.h"
 
 #include <algorithm>
 #include <cctype>
@@ -51,8 +52,15 @@ void PbrtReader::sampler(Tokenizer& tokens, SourceLocation where) {
 void PbrtReader::integrator(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Integrator");
     auto p = params(tokens, "Integrator", type, where);
-    context_.scene.settings.integrator = make_integrator(type, p);
-    context_.scene.settings.integrator_where = where;
+    auto& settings = context_.scene.settings;
+    settings.integrator = make_integrator(type, p);
+    settings.integrator_where = where;
+    bool const shoots = match(settings.integrator, [](auto const& i) {
+        return requires { i.shooting; }
+        || requires { i.paths; };
+    });
+    integrator_seed_.reset();
+    if (shoots && p.find("seed")) integrator_seed_ = p.integer("seed", 0);
     p.note_unused();
 }
 
@@ -106,6 +114,7 @@ void PbrtReader::option(Tokenizer& tokens, SourceLocation where) {
     } else if (name == "color") {
         if (value != "rgb" && value != "spectral") fail("\"rgb\" or \"spectral\"");
         settings.color = value == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
+        settings.color_given = true;
     } else {
         static std::vector<std::string> const kPbrt{"disablepixeljitter",
                                                     "disabletexturefiltering",

@@ -138,7 +138,10 @@ Scene PbrtReader::finish() {
     finish_objects();
     media_.finish();
     textures_.check_unused();
-    if (sampler_seed_) context_.scene.settings.seed = static_cast<std::uint64_t>(*sampler_seed_);
+    auto& settings = context_.scene.settings;
+    if (auto const seed = sampler_seed_ ? sampler_seed_ : integrator_seed_)
+        settings.seed = static_cast<std::uint64_t>(*seed);
+    if (!settings.color_given) settings.color = default_color(settings.integrator);
     context_.finish_notes();
     return std::move(context_.scene);
 }

@@ -148,7 +148,7 @@ class PbrtReader {
     std::vector<PendingAlpha> alphas_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t included_files_ = 0, included_bytes_ = 0;
-    std::optional<int> sampler_seed_;
+    std::optional<int> sampler_seed_, integrator_seed_;  // pbrt-v4's sppm has one of its own
 };
 
 }  // namespace nephroid

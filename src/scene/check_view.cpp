@@ -84,6 +84,26 @@ void check_camera(Check const& c, Camera const& camera) {
     c.require(camera.exposure_time >= 0, "the camera's shutter closes before it opens: swap the times");
 }
 
+namespace {
+
+/// Each photon of an estimate has its place in every thread.
+constexpr int kMostUsed = 1 << 24;
+
+void check_photons(Check const& c, PhotonShooting const& shooting, PhotonEstimates const& estimates,
+                   float alpha) {
+    c.require(shooting.global_paths >= -1 && shooting.caustic_paths >= -1,
+              "the number of photon paths must not be negative");
+    c.require(shooting.max_depth >= 0, "the integrator's maxphotondepth must not be negative");
+    c.require(estimates.nused >= 0, "the integrator's nused must not be negative");
+    if (estimates.nused > kMostUsed)
+        c.limit("an estimate uses at most 2^24 photons: make nused smaller, or 0 for all within the radius");
+    c.require(estimates.radius >= 0 && estimates.caustic_radius >= 0,
+              "the photons' radius must be above 0, or 0 for one that suits the scene");
+    c.require(alpha > 0 && alpha <= 1, "the integrator's alpha must be above 0 and at most 1");
+}
+
+}  // namespace
+
 void check_settings(Check const& c, Settings const& settings) {
     check_filter(c.at(settings.filter_where), settings.filter);
     check_sampler(c.at(settings.sampler_where), settings.sampler);
@@ -97,6 +117,16 @@ void check_settings(Check const& c, Settings const& settings) {
         if constexpr (requires { integrator.roulette; })
             here.require(integrator.roulette.alpha > 0 && integrator.roulette.alpha <= 1,
                          "the probability of Russian roulette must be above 0 and at most 1");
+        if constexpr (requires { integrator.shooting; })
+            check_photons(here, integrator.shooting, integrator.estimates, integrator.alpha);
+        if constexpr (requires { integrator.gather_samples; })
+            here.require(integrator.gather_samples >= 1,
+                         "the integrator's finalgathersamples must be at least 1");
+        if constexpr (requires { integrator.passes; })
+            here.require(integrator.passes >= 1, "the integrator's passes must be at least 1");
+        if constexpr (requires { integrator.paths; })
+            here.require(integrator.paths == -1 || integrator.paths >= 1,
+                         "the integrator's lightpaths must be at least 1");
     });
 }
 

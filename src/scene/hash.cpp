@@ -147,8 +147,10 @@ std::string hash(Scene const& scene) {
 
 std::string hash(Settings const& settings) {
     Settings shaping = settings;
-    // How many passes, and how the sums are written down, shape no pass.
+    // How many passes, how the sums are written down, and who chose the colours, shape no pass.
     shaping.spp = samples_per_pass(settings);
+    if (auto* p = std::get_if<PhotonMapIntegrator>(&shaping.integrator)) p->passes = 1;
+    shaping.color_given = false;
     shaping.film.filename.clear();
     shaping.film.half_float = false;
     Digest d;

@@ -50,16 +50,15 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             return;
         }
         map.nearest(at.p, rule.k, rule.radius, nearest);
+        float farthest = rule.radius * rule.radius;
         if (nearest.found.size() == rule.k) {
-            float farthest = 0;
+            farthest = 0;
             for (FoundPhoton const& f : nearest.found) farthest = max(farthest, f.distance2);
-            g.radius = rule.shrink * std::sqrt(farthest);
-            if (!(g.radius > 0.0f)) return;  // k photons at one point
-        } else {
-            g.radius *= rule.shrink;
         }
-        // The k-th lies at the radius and so does not count, in floats either.
-        float const most = g.radius * g.radius;
+        // Squared distances are compared: the square of a rounded root may lie beyond the k-th, which then would count.
+        float const most = sqr(rule.shrink) * farthest;
+        g.radius = std::sqrt(most);
+        if (!(g.radius > 0.0f)) return;  // k photons at one point
         for (FoundPhoton const& f : nearest.found)
             if (f.distance2 < most) count(f.index, f.distance2);
     };

@@ -81,12 +81,32 @@ void Interiors::immerse(Assets const& assets, Boundary const& b, bool inwards, W
     immerse_in(index_lanes(eta, lambda), !lambda.is_rgb() && !eta.is_constant(), bsdf);
 }
 
+namespace {
+
+/// Does the ray come through the box, or a little beside it?
+bool meets(Bounds3 const& box, Ray const& ray) {
+    Vec3 const slack = 1e-5f * (abs(box.lo) + abs(box.hi));
+    float near = 0, far = kInfinity;
+    for (int i = 0; i < 3; ++i) {
+        float const a = (box.lo[i] - slack[i] - ray.o[i]) / ray.d[i];
+        float const b = (box.hi[i] + slack[i] - ray.o[i]) / ray.d[i];
+        near = std::max(near, std::min(a, b));
+        far = std::min(far, std::max(a, b));
+    }
+    return near <= far;
+}
+
+}  // namespace
+
 Interiors interiors_at(World const& world, Vec3 p, RayStats& stats) {
     Interiors found;
     Assets const& assets = world.assets();
     std::map<std::uint32_t, int> entered;  // by material, on the way out
     constexpr int kMostSurfaces = 4096;
     Ray ray{p, normalize(Vec3{0.31f, 0.83f, 0.46f})};  // no direction of a modelled edge
+    if (std::none_of(world.bodies().begin(), world.bodies().end(),
+                     [&](Bounds3 const& box) { return meets(box, ray); }))
+        return found;
     SurfaceHit hit;
     for (int i = 0; i < kMostSurfaces && world.intersect(ray, kInfinity, RayKind::Camera, stats, hit); ++i) {
         ray = hit.spawn(ray.d);

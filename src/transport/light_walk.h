@@ -14,9 +14,10 @@ struct LightStart {
     Walk walk;
     LightRay ray;
 };
-/// Emits path `c.sampler` is of, one of `paths`, by the power of the lights or, with `aim`, towards casters. Nothing where
-/// the light sends nothing; `light` is set whenever one was chosen.
-std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths);
+/// Emits path `c.sampler` is of, one of `paths`, by the power of the lights or, with `aim` (where something casts), towards
+/// casters. Nothing where the light sends nothing, or (c.tainted) what is no number. `light`, where given: who was asked, also then; untouched without lights.
+std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths,
+                               std::uint32_t* light = nullptr);
 
 /// Roulette of light paths: a path survives a scattering with the share of its power that is left, so that photons weigh nearly
 /// the same (Jensen 2001, 5.2). `before` is beta before the scattering.

@@ -1,6 +1,7 @@
 #include "photon_plan.h"
 
 #include "scene/match.h"
+#include "transport/shooting.h"
 
 #include <cmath>
 
@@ -36,6 +37,12 @@ std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
             return nullptr;
         }
     });
+}
+
+std::uint64_t paths_of_pass(RenderJob const& job, ShotKind kind) {
+    PhotonPlan const* plan = job.photon_plan();
+    if (!plan) return 0;
+    return kind == ShotKind::Caustic ? plan->caustic_paths : plan->global_paths;
 }
 
 }  // namespace nephroid

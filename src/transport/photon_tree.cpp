@@ -66,8 +66,8 @@ void PhotonTree::nearest(Vec3 p, NearestPhotons& out) const {
     stack[open++] = {0.0f, 0, levels_};  // the root, as the only child of none
     Points8 const at = all8(p);
     while (open > 0) {
-        auto const [near, node, level] = stack[--open];
-        if (!(near < out.most())) continue;
+        std::uint32_t const node = stack[--open].node, level = stack[open].level;
+        if (!(stack[open].distance2 < out.most())) continue;
         if (level == 0) {
             for (std::uint32_t b = node * kLeafBlocks; b < (node + 1) * kLeafBlocks; ++b)
                 out.add(points_[b].distance2(at), 8 * b);

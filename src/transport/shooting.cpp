@@ -4,49 +4,142 @@
 #include "photon_plan.h"
 #include "scene/match.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
 namespace nephroid {
 
 namespace {
 
+/// Photons lie in the map by chunks of so many paths, whoever traces them.
+constexpr std::uint64_t kChunk = 4096;
+/// Whether to stop is asked once in so many paths.
+constexpr std::uint64_t kPatience = 64;
+
+PhotonShooting shooting_of(RenderJob const& job) {
+    return match(job.settings().integrator, [](auto const& i) -> PhotonShooting {
+        if constexpr (requires { i.shooting; }) return i.shooting;
+        return {};
+    });
+}
+
+/// What all paths of a shot have in common.
+struct Shoot {
+    RenderJob const& job;
+    PhotonPlan const& plan;
+    ShotKind kind;
+    Wavelengths lambda;
+    std::uint64_t first, paths;  // numbers of the pass's block of the sequence
+    std::uint32_t max_depth;
+    Aim const* aim;
+    bool sorts_caustics;  // a map of their own has them
+
+    Shoot(RenderJob const& j, PhotonPlan const& p, ShotKind k, std::uint64_t pass, std::uint64_t n)
+        : job(j),
+          plan(p),
+          kind(k),
+          lambda(j.pass_wavelengths(pass)),
+          first(pass * n),
+          paths(n),
+          max_depth(static_cast<std::uint32_t>(std::max(0, shooting_of(j).max_depth))),
+          aim(k == ShotKind::Caustic && shooting_of(j).aim && p.aim.casts() ? &p.aim : nullptr),
+          sorts_caustics(p.caustic_paths > 0) {}
+
+    [[nodiscard]] bool keeps(Walk const& walk, bool caustic) const {
+        switch (kind) {
+            case ShotKind::Global:
+                return true;
+            case ShotKind::Caustic:
+                return caustic;
+            default:
+                return walk.vertex > 0 && !(caustic && sorts_caustics);
+        }
+    }
+};
+
+/// How a path ended: a member of PhotonCounts.
+using End = std::uint64_t PhotonCounts::*;
+
+PhotonRecord photon_of(Walk const& walk, Vertex const& v, std::uint32_t light, bool caustic) {
+    PhotonRecord r;
+    r.p = v.hit.s.p;
+    r.wi = -walk.ray.d;
+    r.n = dot(v.hit.s.ng, walk.ray.d) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
+    r.power = walk.beta;
+    r.bounces = walk.vertex;
+    r.light = light;
+    r.caustic = caustic;
+    r.hero_only = walk.hero_only;
+    return r;
+}
+
+/// Path `i` of a shot, from its light to its end. `visit` is told where it goes: begins(ray), meets(point), lands(photon),
+/// leaves(ray).
 template <class Visit>
-void walk_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
-                     std::uint64_t paths, int max_depth, RayStats& stats, Visit&& visit) {
-    std::uint64_t const which = kind == ShotKind::Caustic ? stream::kCausticPhotons : stream::kGlobalPhotons;
-    PathSampler sampler(job.sequence(), which, 0, pass * paths + path);
-    PathContext c{job, job.world(), job.pass_wavelengths(pass), sampler, stats};
-    PhotonPlan const& plan = *job.photon_plan();
-    auto start = emit(c, kind == ShotKind::Caustic ? &plan.aim : nullptr, paths);
-    if (!start) return;
+End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
+    std::uint64_t const which =
+        s.kind == ShotKind::Caustic ? stream::kCausticPhotons : stream::kGlobalPhotons;
+    PathSampler sampler(s.job.sequence(), which, 0, s.first + i);
+    PathContext c{s.job, s.job.world(), s.lambda, sampler, stats};
+    auto start = emit(c, s.aim, s.paths, &light);
+    if (!start) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark;
     Walk& walk = start->walk;
+    visit.begins(walk.ray);
     Vertex v;
     Spectrum unseen;
     for (;;) {
-        if (!advance(c, walk, EmissionWeight::None, v, unseen) || !prepare(c, walk, v)) return;
-        if (!v.is.near_specular) {
-            bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-            bool const wanted = kind == ShotKind::Global    ? true
-                                : kind == ShotKind::Caustic ? caustic
-                                : caustic                   ? plan.caustic_paths == 0
-                                                            : walk.vertex > 0;
-            if (wanted) {
-                PhotonRecord r;
-                r.p = v.hit.s.p;
-                r.wi = -walk.ray.d;
-                r.n = dot(v.hit.s.ng, walk.ray.d) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
-                r.power = walk.beta;
-                r.bounces = walk.vertex;
-                r.light = start->ray.light;
-                r.caustic = caustic;
-                r.hero_only = walk.hero_only;
-                visit(r);
-            }
+        if (!advance(c, walk, EmissionWeight::None, v, unseen)) {
+            visit.leaves(walk.ray);
+            return &PhotonCounts::escaped;
         }
-        if (walk.vertex >= static_cast<std::uint32_t>(max_depth)) return;
+        visit.meets(v.hit.s.p);
+        if (!walk.beta.is_finite()) return &PhotonCounts::broken;
+        // Light that an absorbing medium has swallowed to the last float is no photon.
+        if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
+        bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
+        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(walk, v, light, caustic));
+        if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
         Spectrum const before = walk.beta;
-        if (!scatter(c, walk, v) || !survives_with_power(c, walk, before)) return;
-        if (kind == ShotKind::Caustic && !walk.path_class.all_specular()) return;
+        if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;
+        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
+        if (s.kind == ShotKind::Caustic && !walk.path_class.all_specular()) return &PhotonCounts::landed;
+        if (!survives_with_power(c, walk, before)) return &PhotonCounts::absorbed;
     }
 }
+
+/// Where a ray that leaves the scene is past all of it.
+Vec3 leaving_point(Bounds3 const& box, Ray const& ray) {
+    float far = kInfinity;
+    for (int i = 0; i < 3; ++i)
+        if (ray.d[i] != 0.0f)
+            far = min(far, ((ray.d[i] > 0.0f ? box.hi[i] : box.lo[i]) - ray.o[i]) / ray.d[i]);
+    // From outside of the box, or on its very side: as far as the scene is wide.
+    float const wide = 2.0f * bounding_sphere(box).radius;
+    float const t = far > 1e-3f * wide && std::isfinite(far) ? far : wide;
+    return ray.o + t * ray.d;
+}
+
+/// The photons of a chunk, and how its paths ended, by source.
+struct Chunk {
+    std::vector<Photon> photons;
+    struct Path {
+        std::uint32_t light = 0, stored = 0;
+        End end = &PhotonCounts::dark;
+    };
+    std::vector<Path> paths;
+    RayStats rays;
+
+    void begins(Ray const&) const {}
+    void meets(Vec3) const {}
+    void leaves(Ray const&) const {}
+    void lands(PhotonRecord const& r) {
+        photons.emplace_back(r);
+        ++paths.back().stored;
+    }
+};
 
 }  // namespace
 
@@ -54,20 +147,72 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
                           PrepareControl const& control) {
     Shot shot;
     shot.paths = paths;
-    int const depth = match(job.settings().integrator, [](auto const& i) {
-        if constexpr (requires { i.shooting; }) return i.shooting.max_depth;
-        return 0;
+    World const& world = job.world();
+    shot.by_source.resize(world.light_sources().size());
+    PhotonPlan const* plan = job.photon_plan();
+    // Without power nobody emits anything.
+    if (!plan || paths == 0 || !(world.total_power() > 0.0f)) return shot;
+    Shoot const s(job, *plan, kind, pass, paths);
+
+    std::uint64_t const count = (paths + kChunk - 1) / kChunk;
+    std::vector<std::vector<Photon>> photons(count);
+    std::mutex adding;  // once a chunk: what is added up are whole numbers, in whatever order
+    std::uint64_t done = 0;
+    std::atomic<bool> stopped = false;
+    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t n) {
+        Chunk chunk;
+        std::uint64_t const begin = n * kChunk, end = std::min(paths, begin + kChunk);
+        chunk.paths.reserve(end - begin);
+        for (std::uint64_t i = begin; i < end; ++i) {
+            if (i % kPatience == 0 && (stopped || control.stopped())) {
+                stopped = true;
+                return;
+            }
+            Chunk::Path& path = chunk.paths.emplace_back();
+            path.end = follow_light(s, i, path.light, chunk.rays, chunk);
+        }
+        photons[n] = std::move(chunk.photons);
+        std::lock_guard const lock(adding);
+        for (Chunk::Path const& path : chunk.paths) {
+            PhotonCounts& counts = shot.by_source[world.source_of(path.light)];
+            ++counts.emitted;
+            counts.stored += path.stored;
+            ++(counts.*path.end);
+        }
+        shot.rays.add(chunk.rays);
+        done += end - begin;
+        if (control.on_progress) control.on_progress(static_cast<double>(done) / static_cast<double>(paths));
     });
-    for (std::uint64_t i = 0; i < paths; ++i) {
-        if (control.stopped()) return std::nullopt;
-        walk_light_path(job, kind, pass, i, paths, depth, shot.rays,
-                        [&](PhotonRecord const& r) { shot.photons.emplace_back(r); });
-    }
+    if (stopped) return std::nullopt;
+
+    std::vector<std::size_t> first(count + 1);
+    for (std::size_t n = 0; n < count; ++n) first[n + 1] = first[n] + photons[n].size();
+    shot.photons.resize(first[count]);
+    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t n) {
+        std::copy(photons[n].begin(), photons[n].end(),
+                  shot.photons.begin() + static_cast<std::ptrdiff_t>(first[n]));
+        std::vector<Photon>().swap(photons[n]);
+    });
     return shot;
 }
 
-TracedPath trace_light_path(RenderJob const&, ShotKind, std::uint64_t, std::uint64_t, std::uint64_t) {
-    return {};
+TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
+                            std::uint64_t paths) {
+    struct Visit {
+        TracedPath traced;
+        Bounds3 bounds;
+
+        void begins(Ray const& ray) { traced.vertices.push_back(ray.o); }
+        void meets(Vec3 p) { traced.vertices.push_back(p); }
+        void leaves(Ray const& ray) { traced.vertices.push_back(leaving_point(bounds, ray)); }
+        void lands(PhotonRecord const& r) { traced.photons.push_back(r); }
+    };
+    Visit visit{{}, job.world().bounds()};
+    PhotonPlan const* plan = job.photon_plan();
+    if (!plan || paths == 0 || !(job.world().total_power() > 0.0f)) return visit.traced;
+    RayStats stats;
+    follow_light(Shoot(job, *plan, kind, pass, paths), path, visit.traced.light, stats, visit);
+    return visit.traced;
 }
 
 }  // namespace nephroid

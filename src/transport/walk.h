@@ -27,8 +27,8 @@ inline constexpr std::uint64_t kCamera = 0, kGlobalPhotons = 1, kCausticPhotons 
 /// whatever was drawn before it.
 namespace dimension {
 inline constexpr std::uint32_t kFilm = 0, kLens = 1, kWavelength = 2;
-// Of a light path instead: which light, where on it, whereto (and towards which caster).
-inline constexpr std::uint32_t kSource = 0, kSourcePoint = 1, kSourceDirection = 2, kCaster = 3;
+// Of a light path instead: which light (and towards which caster), where on it, whereto.
+inline constexpr std::uint32_t kSource = 0, kSourcePoint = 1, kSourceDirection = 2;
 // … and, of those that are drawn into the picture, the wavelengths, and the camera as the source sees it.
 inline constexpr std::uint32_t kPathWavelength = 4, kSourceLens = 5, kSourcePixel = 6;
 inline constexpr std::uint32_t kFirstVertex = 8, kPerVertex = 8;

@@ -177,6 +177,31 @@ struct Builder {
         }
     }
 
+    /// Of what encloses, by material: a body's surface may be of several objects.
+    std::vector<Bounds3> bodies() const {
+        std::vector<Bounds3> boxes(scene.materials.size());
+        auto const add = [&](std::uint32_t first, std::uint32_t count, InstanceRecord const* instance) {
+            for (std::uint32_t i = first; i < first + count; ++i) {
+                ObjectRecord const& r = parts.records[i];
+                if (!r.material.valid() || !assets.data(r.material).encloses) continue;
+                Bounds3 const box = match(
+                    r.object->shape, [](LoopSubdivision const&) { return Bounds3{}; },
+                    [](auto const& shape) { return bounds(shape); });
+                if (box.empty()) continue;
+                for (int c = 0; c < 8; ++c) {
+                    Vec3 p = box.corner(c);
+                    if (r.place) p = r.place->shape_to_group.point(p);
+                    boxes[r.material.value].add(instance ? instance->to_world.point(p) : p);
+                }
+            }
+        };
+        add(first_record[0], record_count[0], nullptr);
+        for (InstanceRecord const& i : parts.instances)
+            add(i.first_record, parts.count_from(i.first_record), &i);
+        std::erase_if(boxes, [](Bounds3 const& box) { return box.empty(); });
+        return boxes;
+    }
+
     /// Depth first through the groups' instances; Embree's instances have one level, so chains are multiplied out. `validate`
     /// has excluded cycles and more than 2^31 instances.
     void flatten(GroupId group, Mat4 const& to_world) {
@@ -226,6 +251,7 @@ World compile(Scene scene_in) {
     w.bounds_ = w.caster_->bounds();
     w.parts_->first_record = b.first_record;
     w.parts_->record_count = b.record_count;
+    if (w.encloses_) w.bodies_ = b.bodies();
     gather_lights(scene, *w.assets_, *w.parts_, *w.lights_, bounding_sphere(w.bounds_));
     w.counts_.lights = w.lights_->entries.size();
     w.counts_.infinite_lights = w.lights_->infinite.size();

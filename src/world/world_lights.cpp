@@ -3,12 +3,26 @@
 #include "emitter_sampling.h"
 #include "light_table.h"
 #include "sampling/warp.h"
+#include "scene/match.h"
 #include "world/world.h"
 #include "world_parts.h"
 
 #include <cmath>
 
 namespace nephroid {
+
+namespace {
+
+/// As pbrt's scene files call it.
+char const* kind_of(Light const& light) {
+    return match(
+        light.kind, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
+        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
+        [](SunSkyLight const&) { return "sunsky"; }, [](GoniometricLight const&) { return "goniometric"; },
+        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; });
+}
+
+}  // namespace
 
 Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {
     if (!hit.emits) return {};
@@ -86,45 +100,31 @@ float World::infinite_light_pdf(LightId id, Receiver const& to, LightSampling ho
 
 std::optional<LightRay> World::sample_emission(double u_choose, Vec2 u_position, Vec2 u_direction,
                                                Wavelengths const& lambda) const {
-    std::optional<LightRay> result;
-    if (lights_->by_power.empty()) return result;
+    if (lights_->by_power.empty()) return std::nullopt;
     auto const chosen = lights_->by_power.sample(u_choose);
-    LightEntry const& entry = lights_->entries[chosen.index];
-    if (entry.shape == LightShape::NoSurface) {
-        auto const e =
-            nephroid::sample_emission((*scene_)[LightId{entry.part}], lights_->data[entry.part], *assets_,
-                                      bounding_sphere(bounds_), u_position, u_direction, lambda);
-        if (e) result.emplace(LightRay{*e, chosen.index, chosen.pmf});
-        return result;
-    }
-    Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
-    LightSample point;
-    float const area_pdf = sample_emitter_area(*lights_, *parts_, entry, u_position, point);
-    if (!(area_pdf > 0.0f) || !std::isfinite(area_pdf)) return result;
-    // Lambert's emission goes out by the cosine, on either side where both shine.
-    bool back = false;
-    if (emitter.light->two_sided) {
-        back = u_direction.x >= 0.5f;
-        u_direction.x = min(2.0f * (back ? u_direction.x - 0.5f : u_direction.x), kOneMinusEpsilon);
-    }
-    Vec3 const local = square_to_cosine_hemisphere(u_direction);
-    float const side = emitter.light->two_sided ? 0.5f : 1.0f;
-    float const direction_pdf = cosine_hemisphere_pdf(local.z) * side;
-    if (!(direction_pdf > 0.0f)) return result;
-    LightRay& r = result.emplace();
-    EmissionSample& e = r.emission;
-    e.n = back ? -point.n : point.n;
-    e.ray = {point.p, normalize(frame_from_z(e.n).from_local(local))};
-    e.p_error = point.p_error;
-    e.radiance = emission_at(*assets_, emitter, point.p, point.uv, lambda) *
-                 opacity(*assets_, emitter, point.p, point.uv);
-    e.pdf_position = area_pdf;
-    e.pdf_direction = direction_pdf;
-    r.light = chosen.index;
-    r.choice = chosen.pmf;
-    r.side = side;
-    r.unseen = emitter.unseen;
-    return result;
+    auto ray = emit(chosen.index, nullptr, u_position, u_direction, lambda);
+    if (ray) ray->choice = chosen.pmf;
+    return ray;
+}
+
+std::optional<std::uint32_t> World::light_chosen_by(double u_choose) const {
+    if (lights_->by_power.empty()) return std::nullopt;
+    return lights_->by_power.sample(u_choose).index;
+}
+
+std::vector<LightSource> World::light_sources() const {
+    std::vector<LightSource> sources;
+    // Emitters have the order of the records that shine.
+    for (ObjectRecord const& r : parts_->records)
+        if (r.emits()) sources.push_back({"area", r.object->light->where});
+    for (Light const& light : scene_->lights) sources.push_back({kind_of(light), light.where});
+    return sources;
+}
+
+std::uint32_t World::source_of(std::uint32_t light) const {
+    LightEntry const& e = lights_->entries[light];
+    return e.shape == LightShape::NoSurface ? static_cast<std::uint32_t>(lights_->emitters.size()) + e.part
+                                            : parts_->records[e.record].emitter;
 }
 
 EmissionDensity World::emission_density(SurfaceHit const& from, Vec3 w) const {

@@ -17,6 +17,8 @@ struct DevelopSettings {
     float exposure = 0;                           // stops, for 8-bit pictures only
     bool in_a_hurry = false;                      // EXR files may be larger if they are written sooner
     std::map<std::string, std::string> metadata;  // into the header of EXR files
+    /// Drawn over the beauty of pictures, never of films: RGBA of the crop window's size, R G B times A, as bright as after exposure.
+    Image const* over = nullptr;
 };
 
 /// Beauty, linear sRGB, 3 channels float: sum / weight; 0 where there is no weight. Covers the crop window.

@@ -177,15 +177,22 @@ struct Settings {
     Integrator integrator;
     FilmSettings film;
     ColorMode color = ColorMode::Spectral;
+    bool color_given = false;  // by the file or the command line: it no longer follows the integrator
     std::uint64_t seed = 0;
     int spp = 16;  // samples of a pixel that the scene asks for
     SourceLocation filter_where, sampler_where, integrator_where;
 };
 
+/// Where nobody said which colours are wanted. Few passes, which share their wavelengths, would have wrong ones in spectral mode: the
+/// integrator that is made for few is in rgb.
+inline ColorMode default_color(Integrator const& i) {
+    return std::holds_alternative<PhotonMapIntegrator>(i) ? ColorMode::Rgb : ColorMode::Spectral;
+}
+
 /// Samples of a pixel in one pass. Part of what a pass is, unlike their number: hash() knows.
 inline int samples_per_pass(Settings const& s) {
     auto const* p = std::get_if<PhotonMapIntegrator>(&s.integrator);
-    return p ? (s.spp + p->passes - 1) / p->passes : 1;
+    return p ? (s.spp - 1) / p->passes + 1 : 1;
 }
 /// Passes that the settings ask for.
 inline int wanted_passes(Settings const& s) {

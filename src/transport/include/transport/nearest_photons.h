@@ -2,7 +2,7 @@
 //
 // What is found is written down as it comes. When the room is full, the farthest are forgotten: by a histogram of the upper bits
 // of squared distances, in a time that grows with their number alone and without branches that depend on them. That leaves k and
-// a few; which of those few are in is settled in the end. A heap takes three times as long (docs/decisions/0008).
+// a few; which of those few are in is settled in the end (docs/decisions/0008-photon-map-structure.md).
 #pragma once
 
 #include "transport/float8.h"

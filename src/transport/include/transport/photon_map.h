@@ -21,7 +21,7 @@ class PhotonMap {
     [[nodiscard]] std::size_t size() const { return photons_.size(); }
     [[nodiscard]] bool empty() const { return photons_.empty(); }
     [[nodiscard]] Photon const& operator[](std::size_t i) const { return photons_[i]; }
-    /// About 48 a photon: itself 32, its place once more 12, and 2 to 4 for what leads there. While it is built, 80 more.
+    /// About 48 a photon: itself 32, its place once more 12, and 2 to 4 for what leads there. While it is built, 48 more.
     [[nodiscard]] std::size_t bytes() const {
         return photons_.capacity() * sizeof(Photon) + tree_.bytes() + grid_.bytes();
     }

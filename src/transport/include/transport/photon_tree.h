@@ -2,7 +2,7 @@
 //
 // Leaves are runs of photons; a node holds the boxes of eight leaves, or of eight nodes, that follow each other. So there are no
 // pointers, and one step looks at eight boxes. Boxes hug the photons, which lie on surfaces: that leaves out more than the
-// planes of a kd-tree do (photon-map-structure, docs/decisions/0008).
+// planes of a kd-tree do (docs/decisions/0008-photon-map-structure.md).
 #pragma once
 
 #include "transport/float8.h"
@@ -58,7 +58,7 @@ void PhotonTree::eights_within(Vec3 p, float distance2, F&& f) const {
     std::size_t open = 0;
     stack[open++] = {0, levels_ - 1};
     while (open > 0) {
-        auto const [node, level] = stack[--open];
+        std::uint32_t const node = stack[--open].node, level = stack[open].level;
         std::uint32_t const near = less8(nodes_[first_[level] + node].distance2(at), most);
         if (level > 0) {
             each_bit(near, [&](std::uint32_t i) { stack[open++] = {8 * node + i, level - 1}; });

@@ -27,6 +27,9 @@ struct Shot {
 std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
                           PrepareControl const& control);
 
+/// How many paths a pass of the job shoots into the global or the caustic map: 0 where it makes none.
+std::uint64_t paths_of_pass(RenderJob const& job, ShotKind kind);
+
 /// One path of a shot, vertex by vertex, as pictures and files show them.
 struct TracedPath {
     std::uint32_t light = 0;

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "world/hit.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,6 +53,19 @@ struct LightRay {
         float const cosine = e.n == Vec3(0) ? 1.0f : abs_dot(e.n, e.ray.d);
         return e.radiance * (cosine / (e.pdf_position * e.pdf_direction * choice));
     }
+};
+
+/// Something that shines, as its user knows it: an emitting object with all of its parts and appearances, or a light without a
+/// surface.
+struct LightSource {
+    char const* kind;  // "area", or the light's type
+    SourceLocation where;
+};
+
+/// A part of a surface that may throw caustics, in the world: all of it is within `reach` of the hull of the points.
+struct CasterPiece {
+    std::array<Vec3, 4> p;
+    float reach = 0;
 };
 
 class World {
@@ -107,6 +121,30 @@ class World {
     EmissionDensity emission_density(LightId light, Vec3 p, Vec3 w) const;
     /// Power of all lights in W, of the spectrum's largest value: what sample_emission chooses by.
     float total_power() const;
+    /// The light (LightRay::light) that sample_emission chooses, whether or not it then sends anything. None without any power.
+    std::optional<std::uint32_t> light_chosen_by(double u_choose) const;
+    /// Whatever shines, and which of them a light (LightRay::light) belongs to.
+    [[nodiscard]] std::vector<LightSource> light_sources() const;
+    [[nodiscard]] std::uint32_t source_of(std::uint32_t light) const;
+
+    // --- emission towards a place -----------------------------------------------------------------------------------------
+    /// Light of one light, 0 … counts().lights - 1, as sample_emission sends it or, with `ball`, towards a ball: the densities are
+    /// those of this way, the choice is 1. Nothing where that light sends none.
+    std::optional<LightRay> emit(std::uint32_t light, BoundingSphere const* ball, Vec2 u_position,
+                                 Vec2 u_direction, Wavelengths const& lambda) const;
+    /// The density with which another ball (or none) would have sent that ray: by position for a light at infinity, given the
+    /// direction; else by direction, given the position. The other of the two densities is the same for all balls.
+    float aimed_density(LightRay const& ray, BoundingSphere const* ball) const;
+    /// False where no ray from that light can meet the ball.
+    bool may_reach(std::uint32_t light, BoundingSphere const& ball) const;
+    [[nodiscard]] bool is_boundless(std::uint32_t light) const;
+    [[nodiscard]] bool has_surface(std::uint32_t light) const;
+    /// W, of the spectrum's largest value.
+    float power_of(std::uint32_t light) const;
+    /// Surfaces that may scatter (near-)specularly, in pieces.
+    [[nodiscard]] std::vector<CasterPiece> casters() const;
+    /// Boxes of the bodies that paths have to know they are in, one a material.
+    [[nodiscard]] std::vector<Bounds3> const& bodies() const { return bodies_; }
 
   private:
     friend World compile(Scene scene);
@@ -117,6 +155,12 @@ class World {
     float passing_share(Ray ray, float t_max, RayStats& stats) const;
     std::optional<LightSample> sample_light_without_surface(LightId id, float pmf, Vec3 p, Vec2 u,
                                                             Wavelengths const& lambda) const;
+    std::optional<LightRay> emit_without_surface(std::uint32_t light, BoundingSphere const* ball,
+                                                 Vec2 u_position, Vec2 u_direction,
+                                                 Wavelengths const& lambda) const;
+    std::optional<LightRay> emit_from_surface(std::uint32_t light, BoundingSphere const* ball,
+                                              Vec2 u_position, Vec2 u_direction,
+                                              Wavelengths const& lambda) const;
     std::optional<LightSample> sample_area_light(LightEntry const& entry, float pmf, Receiver const& to,
                                                  ShapeSampling how, Vec2 u, Wavelengths const& lambda) const;
 
@@ -127,6 +171,7 @@ class World {
     std::unique_ptr<WorldParts> parts_;
     Bounds3 bounds_;
     bool encloses_ = false;
+    std::vector<Bounds3> bodies_;
     WorldCounts counts_;
     std::string hash_;
 };
