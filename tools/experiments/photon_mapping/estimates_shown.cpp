@@ -96,9 +96,8 @@ void caustics(Lab const& lab) {
         Run r = run(s.setup, show("caustic", 0, paths, 60), 1);
         labels.push_back(s.label);
         rows.push_back(counted(lab, s.label, photons, r.photons.caustic, r.seconds));
-        sheet[0].pictures.push_back(std::move(r.picture));
+        sheet[0].pictures.push_back(exposed(std::move(r.picture), 0.97));
     }
-    sheet[0].exposure = exposure_for(sheet[0].pictures[0], 0.98);
     write_sheet(page.file("caustics.png"), labels, sheet);
     page.image("caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls");
     page.table(kCounts, rows);

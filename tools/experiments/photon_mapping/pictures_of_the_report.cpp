@@ -77,10 +77,7 @@ void pictures_of_the_report(Lab const& lab) {
         cells.push_back("2 to 3 hours");
         rows.push_back(cells);
         labels.push_back(f.name);
-        double const exposure = exposure_for(r.picture, 0.95);
-        for (auto& pixel : r.picture.rgb)
-            for (double& v : pixel) v *= exposure;
-        row.pictures.push_back(std::move(r.picture));
+        row.pictures.push_back(exposed(std::move(r.picture), 0.95));
     }
     write_sheet(page.file("report.png"), labels, {row});
     page.image("report.png", "Spheres, reflective boxes and water, with the report's settings");

@@ -1,6 +1,7 @@
 #include "runs.h"
 
 #include "image/compare.h"
+#include "sheet.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -85,6 +86,13 @@ Setup cropped(Setup setup, double x0, double x1, double y0, double y1) {
     auto const at = [](double share, int side) { return static_cast<int>(std::lround(share * side)); };
     setup.settings.film.crop = {at(x0, size.x), at(x1, size.x), at(y0, size.y), at(y1, size.y)};
     return setup;
+}
+
+Picture exposed(Picture p, double share) {
+    double const exposure = exposure_for(p, share);
+    for (auto& color : p.rgb)
+        for (double& v : color) v *= exposure;
+    return p;
 }
 
 double relative_mse(Picture const& p, Picture const& reference) {
