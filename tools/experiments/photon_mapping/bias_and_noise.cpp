@@ -18,7 +18,7 @@ namespace {
 /// radiance, over the pixels.
 struct Off {
     double bias = 0, noise = 0;
-    double bias_inside = 0;  // where no edge is near
+    double bias_inside = 0;  // the mean difference where no edge is near
     [[nodiscard]] double total() const { return std::hypot(bias, noise); }
 };
 Off measured(Setup const& setup, std::string const& directives, Picture const& truth, int maps) {
@@ -28,7 +28,7 @@ Off measured(Setup const& setup, std::string const& directives, Picture const& t
         Picture const p = render_picture(setup, directives, 1, static_cast<std::uint64_t>(seed));
         for (std::size_t i = 0; i < n; ++i) sum[i] += p.rgb[i][1], square[i] += p.rgb[i][1] * p.rgb[i][1];
     }
-    double noise2 = 0, bias2 = 0, inside2 = 0, inside = 0;
+    double noise2 = 0, bias2 = 0, off_inside = 0, inside = 0;
     auto const side = static_cast<std::size_t>(truth.width);
     for (std::size_t i = 0; i < n; ++i) {
         double const mean = sum[i] / maps;
@@ -38,15 +38,17 @@ Off measured(Setup const& setup, std::string const& directives, Picture const& t
         noise2 += variance, bias2 += off2;
         double const x = (static_cast<double>(i % side) + 0.5) / static_cast<double>(side) - 0.25;
         double const y = (static_cast<double>(i / side) + 0.5) / static_cast<double>(side) - 0.5;
-        if (std::hypot(x, y) < 0.12) inside2 += off2, inside += 1;
+        if (std::hypot(x, y) < 0.12) off_inside += mean - truth.rgb[i][1], inside += truth.rgb[i][1];
     }
     double const mean_radiance = mean(truth);
     auto const share = [&](double squares, double count) {
         return std::sqrt(std::max(0.0, squares) / count) / mean_radiance;
     };
     auto const pixels = static_cast<double>(n);
-    return {share(bias2, pixels), share(noise2, pixels), share(inside2, inside)};
+    return {share(bias2, pixels), share(noise2, pixels), off_inside / inside};
 }
+
+std::string signed_percent(double share) { return (share > 0 ? "+" : "") + fixed(100 * share, 2) + "%"; }
 
 std::string ask(std::uint64_t paths, int k, std::string const& kernel) {
     return fmt::format(
@@ -86,8 +88,8 @@ void bias_and_noise(Lab const& lab) {
         Off const off = measured(setup, directives, truth, maps);
         for (auto [line, y] : {std::pair{&bias, off.bias}, {&noise, off.noise}, {&both, off.total()}})
             line->x.push_back(static_cast<double>(k)), line->y.push_back(y);
-        rows.push_back({std::to_string(k), percent(off.bias), percent(off.bias_inside), percent(off.noise),
-                        percent(off.total())});
+        rows.push_back({std::to_string(k), percent(off.bias), signed_percent(off.bias_inside),
+                        percent(off.noise), percent(off.total())});
         if (k == 10 || k == 50 || k == 200 || k == 1000) {
             labels.push_back("k = " + std::to_string(k));
             row.pictures.push_back(
@@ -102,7 +104,7 @@ void bias_and_noise(Lab const& lab) {
     page.save("bias.svg", line_plot("Bias and noise", {"photons an estimate", true, bias.x},
                                     {"share of the mean radiance"}, {bias, noise, both}));
     page.image("bias.svg", "Bias and noise over photons an estimate");
-    page.table({"photons an estimate", "bias, RMS", "bias far from edges, RMS", "noise, RMS", "both"}, rows);
+    page.table({"photons an estimate", "bias, RMS", "far from edges, mean", "noise, RMS", "both"}, rows);
     std::size_t best = 0;
     for (std::size_t i = 0; i < ks.size(); ++i)
         if (both.y[i] < both.y[best]) best = i;
@@ -131,8 +133,8 @@ void kernels(Lab const& lab) {
     std::vector<std::vector<std::string>> rows;
     for (std::string const& kernel : names) {
         Off const off = measured(setup, ask(paths_of(lab), 100, kernel), truth, maps);
-        rows.push_back(
-            {kernel, percent(off.bias), percent(off.bias_inside), percent(off.noise), percent(off.total())});
+        rows.push_back({kernel, percent(off.bias), signed_percent(off.bias_inside), percent(off.noise),
+                        percent(off.total())});
         row.pictures.push_back(render_picture(
             ball,
             fmt::format(
@@ -145,8 +147,7 @@ void kernels(Lab const& lab) {
     row.exposure = exposure_for(row.pictures.back(), 0.97);
     write_sheet(page.file("kernels.png"), names, {row});
     page.image("kernels.png", "The caustic below a glass ball by kernel");
-    page.table({"100 photons an estimate", "bias, RMS", "bias far from edges, RMS", "noise, RMS", "both"},
-               rows);
+    page.table({"100 photons an estimate", "bias, RMS", "far from edges, mean", "noise, RMS", "both"}, rows);
     page.text(
         "At the same number of photons a kernel that falls off sees less far: less bias, more noise. The box "
         "shows each photon's disk.");

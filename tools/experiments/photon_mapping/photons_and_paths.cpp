@@ -38,12 +38,11 @@ void photons_and_paths(Lab const& lab) {
         "the "
         "colour of their power; paths of both, white; normals of the surfaces as the photons keep them, in "
         "16 "
-        "bits, green. All are drawn where nothing hides them from the camera. The same with the program:");
-    page.code(
-        fmt::format("nephroid render scenes/cornell-spheres.pbrt -o photons.png --show-photons {}\n"
-                    "nephroid render scenes/cornell-spheres.pbrt -o paths.png --show-paths {}\n"
-                    "nephroid render scenes/cornell-spheres.pbrt -o normals.png --show-normals {}",
-                    photons, paths, normals));
+        "bits, green. All are drawn where nothing hides them from the camera. All three at once:");
+    page.code(fmt::format(
+        "nephroid render scenes/cornell-spheres.pbrt -o marked.png --show-photons={} --show-paths {} "
+        "--show-normals {}",
+        photons, paths, normals));
     Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
     Picture under = render_picture(setup, "Integrator \"path\" \"integer maxdepth\" 8\nSampler \"zsobol\"",
                                    lab.passes(64), 1);
