@@ -144,7 +144,7 @@ void kernels(Lab const& lab) {
                 shot, kernel),
             1, 1));
     }
-    row.exposure = exposure_for(row.pictures.back(), 0.97);
+    row.exposure = 0.4 * exposure_for(row.pictures.back(), 0.95);
     write_sheet(page.file("kernels.png"), names, {row});
     page.image("kernels.png", "The caustic below a glass ball by kernel");
     page.table({"100 photons an estimate", "bias, RMS", "far from edges, mean", "noise, RMS", "both"}, rows);

@@ -11,7 +11,7 @@ namespace nephroid::experiment {
 
 namespace {
 
-constexpr int kGatherRays = 4;  // a sample; the report gathered with each path
+constexpr int kGatherRays = 8;  // a sample; the report gathered with each path
 
 struct Figure {
     int number;
