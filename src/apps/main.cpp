@@ -72,9 +72,10 @@ constexpr char const* kIntegrators =
 
 void declare_overlay(CLI::App& app, OverlayOptions& o) {
     app.add_flag(
-        "--show-photons{10000}", o.photons,
-        "draw photons over the pictures: --show-photons=N so many, with 20 paths and 200 normals unless they "
-        "are counted");
+           "--show-photons{10000}", o.photons,
+           "draw photons over the pictures: --show-photons=N so many, with 20 paths and 200 normals unless "
+           "they are counted")
+        ->check(whole_number(0, kLargestInt));
     app.add_option("--show-paths", o.paths, "draw so many photon paths (white)")
         ->check(whole_number(0, kLargestInt));
     app.add_option("--show-normals", o.normals, "draw the surface's normals at so many photons (green)")

@@ -94,7 +94,29 @@ SettingWords words_of(Settings const& s) {
     return words;
 }
 
-std::vector<std::string> source_names(World const&) { return {}; }
+namespace {
+
+template <class W>
+std::vector<std::string> names_of_sources(W const& world) {
+    std::vector<std::string> names;
+    // Where the world can tell.
+    if constexpr (requires { world.light_sources(); })
+        for (auto const& source : world.light_sources())
+            names.push_back(fmt::format("{} light, {}", source.kind, world.scene().locate(source.where)));
+    return names;
+}
+template <class W>
+std::uint32_t source_in(W const& world, std::uint32_t light) {
+    if constexpr (requires { world.source_of(light); })
+        return world.source_of(light);
+    else
+        return light;
+}
+
+}  // namespace
+
+std::vector<std::string> source_names(World const& world) { return names_of_sources(world); }
+std::uint32_t source_index(World const& world, std::uint32_t light) { return source_in(world, light); }
 
 std::uint64_t samples_of_a_pass(SettingWords const& words) {
     auto const found = words.find(kSamplesOfAPass);

@@ -22,5 +22,7 @@ std::uint64_t samples_of_a_pass(SettingWords const& words);
 
 /// Of the lights that photons are counted by, in that order; shorter where names are not known.
 std::vector<std::string> source_names(World const& world);
+/// … and which of them a photon's light (LightRay::light) belongs to.
+std::uint32_t source_index(World const& world, std::uint32_t light);
 
 }  // namespace nephroid::cli

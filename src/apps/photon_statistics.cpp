@@ -33,8 +33,11 @@ PhotonCounts at(std::vector<PhotonCounts> const& list, std::size_t i) {
 }
 std::size_t sources(PhotonReport const& r) { return std::max(r.global.size(), r.caustic.size()); }
 
+/// "81920", "2.31 M".
+std::string amount(std::uint64_t n) {
+    return n < 100000 ? std::to_string(n) : fmt::format("{:.2f} M", static_cast<double>(n) / 1e6);
+}
 double millions(double n) { return n / 1e6; }
-double millions(std::uint64_t n) { return static_cast<double>(n) / 1e6; }
 
 std::string fates(PhotonCounts const& c) {
     std::string t;
@@ -71,9 +74,9 @@ std::string photon_table(RunStatistics const& s) {
     for (auto const& [name, list] : {std::pair("global", &r.global), std::pair("caustic", &r.caustic)}) {
         PhotonCounts const c = total_of(*list);
         if (c.emitted == 0) continue;
-        t += fmt::format("{} {:<8} {:.2f} M paths, {:.2f} M photons stored; {}\n",
-                         t.empty() ? "photons" : "       ", name, millions(c.emitted), millions(c.stored),
-                         fates(c));
+        std::string const ends = fates(c);
+        t += fmt::format("{} {:<8} {} paths, {} photons stored{}{}\n", t.empty() ? "photons" : "       ",
+                         name, amount(c.emitted), amount(c.stored), ends.empty() ? "" : "; ", ends);
     }
     PhotonCounts all = total_of(r.global);
     all.add(total_of(r.caustic));

@@ -4,6 +4,7 @@
 #include "console.h"
 #include "math/error.h"
 #include "memory.h"
+#include "names.h"
 #include "photon_ply.h"
 #include "read/read.h"
 #include "scene/match.h"
@@ -57,7 +58,7 @@ Settings settings_of_photons(PhotonsOptions const& o, Scene const& scene) {
     return s;
 }
 
-char const* name_of(ShotKind kind) { return kind == ShotKind::Caustic ? "caustic" : "global"; }
+char const* map_name(ShotKind kind) { return kind == ShotKind::Caustic ? "caustic" : "global"; }
 
 void say_written(std::string const& file) {
     print("{}\n", std::filesystem::absolute(file).lexically_normal().string());
@@ -71,9 +72,11 @@ void write_photons(RenderJob const& job, PhotonsOptions const& o, std::string co
         std::size_t const before = cloud.size();
         std::uint64_t const paths = paths_of_pass(job, kind);
         for (std::uint64_t i = 0; i < paths; ++i)
-            for (PhotonRecord const& photon : trace_light_path(job, kind, o.pass, i, paths).photons)
+            for (PhotonRecord photon : trace_light_path(job, kind, o.pass, i, paths).photons) {
+                photon.light = source_index(job.world(), photon.light);
                 cloud.add(photon, lambda, kind);
-        if (!o.quiet) say("{} map: {} paths, {} photons\n", name_of(kind), paths, cloud.size() - before);
+            }
+        if (!o.quiet) say("{} map: {} paths, {} photons\n", map_name(kind), paths, cloud.size() - before);
     }
     if (cloud.size() == 0)
         say("nephroid: warning: there are no photons: {}\n",
@@ -88,7 +91,7 @@ void write_paths(RenderJob const& job, PhotonsOptions const& o, std::string cons
         std::uint64_t const paths = paths_of_pass(job, kind);
         std::uint64_t const shown = std::min(paths, static_cast<std::uint64_t>(*o.paths));
         for (std::uint64_t i = 0; i < shown; ++i) lines.add(trace_light_path(job, kind, o.pass, i, paths));
-        if (!o.quiet) say("{} map: {} paths of {}\n", name_of(kind), shown, paths);
+        if (!o.quiet) say("{} map: {} paths of {}\n", map_name(kind), shown, paths);
     }
     lines.write(file);
     say_written(file);

@@ -149,6 +149,7 @@ std::string hash(Settings const& settings) {
     Settings shaping = settings;
     // How many passes, how the sums are written down, and who chose the colours, shape no pass.
     shaping.spp = samples_per_pass(settings);
+    if (auto* p = std::get_if<PhotonMapIntegrator>(&shaping.integrator)) p->passes = 0;
     if (auto* p = std::get_if<PhotonMapIntegrator>(&shaping.integrator)) p->passes = 1;
     shaping.color_given = false;
     shaping.film.filename.clear();

@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::uint64_t kMostWays = 1u << 20;
+constexpr std::uint64_t kMostWays = 1u << 19;
 constexpr std::uint64_t kMostBalls = 32;
 constexpr std::uint64_t kMostSide = 8;
 /// Rays that are tried in all before any is sent, about.
@@ -113,7 +113,7 @@ class Aim::Builder {
 
     void weigh_other(std::uint32_t light, double power, std::span<float> weights) const {
         std::size_t const count = aim_.balls_.size();
-        std::uint64_t const probes = 4 * probes_;
+        std::uint64_t const probes = probes_ > 1 ? 4 * probes_ : 1;
         auto const n = static_cast<double>(probes);
         // As it shines by itself, who gets how much?
         std::vector<double> gets(count);

@@ -101,8 +101,9 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
         if constexpr (requires { i.estimates; }) return i.estimates.nused;
         return 0;
     });
-    // All photons within a radius: some dozens of them. The nearest few: a bound that is seldom reached.
-    float const wanted = nused == 0 ? 25.0f : static_cast<float>(nused);
+    // All photons within a radius: some dozens of them, of which other sides and walls take a third. The nearest few: a bound that is
+    // seldom reached.
+    float const wanted = nused == 0 ? 40.0f : static_cast<float>(nused);
     float const room = nused == 0 ? 1.0f : 4.0f;
     Bounds3 const& b = job.world().bounds();
     float const size = length(b.hi - b.lo);
@@ -126,7 +127,7 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
         if (!(r > 0.0f && std::isfinite(r))) r = std::isfinite(size) && size > 0 ? 0.01f * size : 1.0f;
         return max(r, least) * room;
     };
-    ShotKind const kind = ShotKind::Global;
+    ShotKind const kind = global_shot(job.settings().integrator);
     if (!(plan.global_radius > 0)) plan.global_radius = radius(kind, plan.global_paths);
     if (!(plan.caustic_radius > 0))
         plan.caustic_radius =

@@ -2,6 +2,7 @@
 
 #include "kernel.h"
 
+#include <array>
 #include <cmath>
 
 namespace nephroid {
@@ -11,10 +12,13 @@ namespace {
 constexpr float kSameNormal = 0.5f;
 constexpr float kPlate = 0.25f;  // half its thickness over the radius
 
+constexpr float kLeastSquare = 1e-37f;  // of a radius whose square has an inverse
+
 /// Where photons must have landed.
 struct Place {
     Vec3 p, n;
     bool both_sides = false;
+    std::uint32_t without = kNoPhoton;
 };
 
 /// What the photons that count amount to, and where they lie.
@@ -29,17 +33,20 @@ template <class Use>
 Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule const& rule,
                          NearestPhotons& nearest, Use&& use) {
     Gathered g;
-    g.radius = rule.radius;
     if (map.empty()) return g;
+    g.radius = rule.radius;
     auto const sum = [&](auto const& kernel) {
+        if (!(sqr(g.radius) >= kLeastSquare)) return;
+        float inverse = 1.0f / sqr(g.radius);
         auto const count = [&](std::uint32_t i, float d2) {
+            if (i == at.without) return;
             Photon const& photon = map[i];
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
             if (off_plane > kPlate * g.radius) return;
-            float const facing = dot(photon.n(), at.n);
-            if ((at.both_sides ? std::abs(facing) : facing) < kSameNormal) return;
-            float const inverse = 1.0f / (g.radius * g.radius);
+            Vec3 const n = photon.along_n();
+            float const facing = at.both_sides ? abs_dot(n, at.n) : dot(n, at.n);
+            if (facing <= 0.0f || sqr(facing) < sqr(kSameNormal) * length_squared(n)) return;
             if (use(photon, kernel(d2 * inverse) * inverse)) {
                 ++g.photons;
                 g.offsets += offset;
@@ -49,16 +56,18 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             map.within(at.p, g.radius, count);
             return;
         }
-        map.nearest(at.p, rule.k, rule.radius, nearest);
+        std::uint32_t const k = rule.k + (at.without == kNoPhoton ? 0 : 1);
+        map.nearest(at.p, k, rule.radius, nearest);
         float farthest = rule.radius * rule.radius;
-        if (nearest.found.size() == rule.k) {
+        if (nearest.found.size() == k) {
             farthest = 0;
             for (FoundPhoton const& f : nearest.found) farthest = max(farthest, f.distance2);
         }
         // Squared distances are compared: the square of a rounded root may lie beyond the k-th, which then would count.
         float const most = sqr(rule.shrink) * farthest;
         g.radius = std::sqrt(most);
-        if (!(g.radius > 0.0f)) return;  // k photons at one point
+        if (!(most >= kLeastSquare)) return;  // k photons at one point
+        inverse = 1.0f / most;
         for (FoundPhoton const& f : nearest.found)
             if (f.distance2 < most) count(f.index, f.distance2);
     };
@@ -76,38 +85,57 @@ bool lopsided(Gathered const& g) {
 float edge_factor(World const& world, Place const& at, EstimateRule const& rule, Gathered const& g,
                   RayStats& stats) {
     if (!rule.edge_correction || g.photons == 0 || !lopsided(g)) return 1.0f;
-    float const share = covered_share(world, at.p, at.n, g.radius, rule.kernel, stats);
-    // Below an eighth the place is no corner of a wall any more, and photons tell too little.
-    return share > 0.125f ? 1.0f / share : 1.0f;
+    Coverage const covered = coverage(world, at.p, at.n, g.radius, rule.kernel, stats);
+    // Photons that lie where there is no surface came from beyond a wall: they are not to be made more of. Below an eighth the
+    // place is no corner of a wall any more, and photons tell too little.
+    if (covered.share <= 0.125f || dot(covered.centre, g.offsets) < 0.0f) return 1.0f;
+    return 1.0f / covered.share;
 }
 
 }  // namespace
 
-float covered_share(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats) {
+Coverage coverage(World const& world, Vec3 p, Vec3 n, float radius, Kernel kernel, RayStats& stats) {
     Frame const frame = frame_from_z(n);
-    float const height = kPlate * radius;
+    Vec3 const up = kPlate * radius * n;
     SurfaceHit hit;
-    auto const is_surface = [&](float r, float phi) {
-        Vec3 const foot = p + r * radius * (std::cos(phi) * frame.x + std::sin(phi) * frame.y);
-        return world.intersect({foot + height * n, -n}, 2.0f * height, RayKind::Bounce, stats, hit) &&
-               abs_dot(hit.s.ng, n) >= kSameNormal;
+    // Seen from above, and no wall stands between: the floor that goes on under a box gets no light.
+    auto const is_surface = [&](Vec3 offset) {
+        return world.intersect({p + offset + up, -up}, 2.0f, RayKind::Bounce, stats, hit) &&
+               abs_dot(hit.s.ng, n) >= kSameNormal &&
+               !world.intersect({p + up, offset}, 1.0f, RayKind::Bounce, stats, hit);
     };
+    auto const at = [&](float r, float turn) {
+        float const phi = kTwoPi * turn;
+        return r * radius * (std::cos(phi) * frame.x + std::sin(phi) * frame.y);
+    };
+    constexpr int kRim = 8;
     bool whole = true;
-    constexpr int kRim = 8, kPoints = 64;
     for (int i = 0; i < kRim && whole; ++i)
-        whole = is_surface(0.97f, kTwoPi * (static_cast<float>(i) + 0.5f) / static_cast<float>(kRim));
-    if (whole) return 1.0f;
-    // A sunflower: rings of equal area, turned by the golden angle.
-    return with_kernel(kernel, [&](auto const& k) {
+        whole = is_surface(at(0.97f, (static_cast<float>(i) + 0.5f) / kRim));
+    Coverage c{1, {0, 0, 0}};
+    if (whole) return c;
+    // Points of a net (Hammersley's) by squared radius and angle: 8 rings of equal area by 8 sectors, and no two points at one radius
+    // or in one direction. In a half or a quarter of the disk every ring has exactly so many, all of which weigh the same.
+    static constexpr std::array<int, 8> kReversed{0, 4, 2, 6, 1, 5, 3, 7};
+    with_kernel(kernel, [&](auto const& k) {
         float all = 0, found = 0;
-        for (int i = 0; i < kPoints; ++i) {
-            float const r2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(kPoints);
-            float const weight = k(r2);
-            all += weight;
-            if (is_surface(std::sqrt(r2), 2.3999632f * static_cast<float>(i))) found += weight;
+        for (std::size_t ring = 0; ring < 8; ++ring) {
+            float const weight = k((static_cast<float>(ring) + 0.5f) / 8.0f);
+            for (std::size_t sector = 0; sector < 8; ++sector) {
+                auto const place = [](std::size_t coarse, std::size_t fine) {
+                    return (static_cast<float>(8 * coarse) + static_cast<float>(kReversed[fine]) + 0.5f) /
+                           64.0f;
+                };
+                Vec3 const offset = at(std::sqrt(place(ring, sector)), place(sector, ring));
+                all += weight;
+                if (!is_surface(offset)) continue;
+                found += weight;
+                c.centre += offset;
+            }
         }
-        return found / all;
+        c.share = found / all;
     });
+    return c;
 }
 
 Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap const& map,
@@ -127,8 +155,12 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
         }
         Vec3 const wi = photon.wi();
         if (!same_normals) {
-            // Flux goes by the geometric normal, scattering by the shading normal (Veach 1997, 5.3).
-            float const cosine = abs_dot(wi, v.hit.s.ng);
+            // Flux came by the geometric normal where it landed, scattering goes by the shading normal (Veach 1997, 5.3). A facet beside
+            // may face the light quite differently. Photons know their normals to a degree: no cosine is less certain than that.
+            Vec3 const n = photon.n();
+            constexpr float kOneDegree = 0.0175f, kSameFacet = 0.9996f;
+            float const cosine =
+                abs_dot(n, at.n) > kSameFacet ? abs_dot(wi, at.n) : max(abs_dot(wi, n), kOneDegree);
             if (!(cosine > 0.0f)) return false;
             weight *= abs_dot(wi, v.hit.s.ns) / cosine;
         }
@@ -144,9 +176,9 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
 }
 
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
-                    NearestPhotons& nearest, RayStats& stats) {
+                    NearestPhotons& nearest, RayStats& stats, std::uint32_t without) {
     Estimate e;
-    Place const at{p, n};
+    Place const at{p, n, false, without};
     Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, float weight) {
         e.radiance += photon.power() * weight;
         return true;

@@ -34,7 +34,8 @@ IrradianceMap::IrradianceMap(World const& world, PhotonMap const& map, EstimateR
             PhotonRecord place;
             place.p = photon.p();
             place.n = photon.n();
-            Estimate const e = irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays);
+            Estimate const e = irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays,
+                                          static_cast<std::uint32_t>(i * kEvery));
             place.power = e.radiance;
             chunks[chunk].radii += static_cast<double>(e.radius);
             places[i] = Photon(place);
@@ -50,19 +51,22 @@ IrradianceMap::IrradianceMap(World const& world, PhotonMap const& map, EstimateR
 }
 
 Spectrum IrradianceMap::at(Vec3 p, Vec3 n, NearestPhotons& nearest) const {
-    // The nearest is nearly always on the same surface; in corners a few more have to be asked.
+    FoundPhoton best{kInfinity, 0};
+    auto const look = [&](FoundPhoton const& f) {
+        bool const nearer =
+            f.distance2 < best.distance2 || (f.distance2 == best.distance2 && f.index < best.index);
+        if (nearer && dot(places_[f.index].n(), n) > kSameNormal) best = f;
+    };
+    // The nearest is nearly always on the same surface. In corners a few more have to be asked, and all of them on the dark side of
+    // a wall that is lit.
     for (std::uint32_t const k : {4u, 32u}) {
         places_.nearest(p, k, radius_, nearest);
-        FoundPhoton const* best = nullptr;
-        for (FoundPhoton const& f : nearest.found)
-            if (dot(places_[f.index].n(), n) > kSameNormal &&
-                (!best || f.distance2 < best->distance2 ||
-                 (f.distance2 == best->distance2 && f.index < best->index)))
-                best = &f;
-        if (best) return places_[best->index].power();
-        if (nearest.found.size() < k) break;  // there are no more
+        for (FoundPhoton const& f : nearest.found) look(f);
+        if (best.distance2 < kInfinity) return places_[best.index].power();
+        if (nearest.found.size() < k) return {};  // there are no more
     }
-    return {};
+    places_.within(p, radius_, [&](std::uint32_t i, float d2) { look({d2, i}); });
+    return best.distance2 < kInfinity ? places_[best.index].power() : Spectrum{};
 }
 
 }  // namespace nephroid

@@ -15,6 +15,15 @@ float PhotonPlan::shrunk(float radius, float alpha, std::uint64_t pass) {
     return static_cast<float>(static_cast<double>(radius) * std::exp(0.5 * log_square));
 }
 
+ShotKind global_shot(Integrator const& integrator) {
+    return match(integrator, [](auto const& i) {
+        bool all = false;
+        if constexpr (requires { i.visualize; }) all = i.visualize != PhotonView::None;
+        if constexpr (requires { i.final_gather; }) all = all || i.final_gather;
+        return all ? ShotKind::Global : ShotKind::Indirect;
+    });
+}
+
 std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
     Settings const& s = job.settings();
     std::uint64_t const pixels =

@@ -3,6 +3,7 @@
 
 #include "aim.h"
 #include "transport/render_pass.h"
+#include "transport/shooting.h"
 
 #include <memory>
 
@@ -21,6 +22,10 @@ class PhotonPlan {
 
 /// Null where the settings' integrator shoots no photons. Radii that are not given are left 0.
 std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job);
+
+/// What the integrator's global map holds. Gather rays see all light that falls on surfaces, and so does who looks at photons; where
+/// the map is read at what the camera sees, direct light is sampled, and caustics have their map.
+ShotKind global_shot(Integrator const& integrator);
 
 /// Sets radii that are 0 to what suits the scene, by the pixels' footprints where the camera looks and by how far apart photons land
 /// there (automatic_radius.cpp): a pure function of the job, which grows with the scene. The job has to have the plan already.

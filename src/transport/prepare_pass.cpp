@@ -71,20 +71,14 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
         if constexpr (requires { integrator.shooting; }) {
             maps->global_rule = rule_of(integrator.estimates, plan->global_radius, integrator.alpha, i);
             maps->caustic_rule = rule_of(integrator.estimates, plan->caustic_radius, integrator.alpha, i);
-            // Gather rays see all light that falls on surfaces; without them it is read where the camera looks, where direct light is
-            // sampled.
-            bool gathers = false;
-            if constexpr (requires { integrator.final_gather; }) gathers = integrator.final_gather;
-            ShotKind const kind =
-                gathers || integrator.visualize != PhotonView::None ? ShotKind::Global : ShotKind::Indirect;
-            if (!make_map(job, kind, i, plan->global_paths, maps->global_rule, control, maps->global,
-                          work->report) ||
+            if (!make_map(job, global_shot(job.settings().integrator), i, plan->global_paths,
+                          maps->global_rule, control, maps->global, work->report) ||
                 !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, maps->caustic_rule, control,
                           maps->caustic, work->report))
                 return false;
             auto const begun = Clock::now();
             if constexpr (requires { integrator.final_gather; })
-                if (gathers || integrator.visualize == PhotonView::Radiance)
+                if (integrator.final_gather || integrator.visualize == PhotonView::Radiance)
                     maps->irradiance =
                         IrradianceMap(job.world(), maps->global, maps->global_rule, work->report.rays);
             maps->shortest_gather = maps->irradiance.typical_radius();

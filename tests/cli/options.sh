@@ -8,12 +8,13 @@ prints "Exit codes"
 silent err
 run 0 --version
 prints nephroid
-for command in render info merge compare; do
+for command in render info merge compare photons; do
     run 0 $command --help
     prints "--help"
 done
 run 0 render --help
-for option in --spp --time --integrator --set --size --crop --color --seed --threads --passes --checkpoint --resume --quiet --log maxdepth; do
+for option in --spp --time --integrator --set --size --crop --color --seed --threads --passes --checkpoint --resume --quiet --log maxdepth \
+    --show-photons indirectphotons photonsperiteration lightpath; do
     prints "$option"
 done
 run 2
@@ -38,7 +39,8 @@ bad() {
 }
 for value in 0 -1 x 1.5 99999999999; do bad --spp "$value" "whole number from 1 to 2147483647"; done
 for value in 5x -1s 0 s nan inf 1e999 1e308h; do bad --time "$value"; done
-bad --integrator foo path whitted direct
+bad --integrator foo path whitted direct photonmap sppm lightpath
+bad --integrator smpp 'did you mean "sppm"'
 for value in 10 0x10 -1x4 8x8x8 x8 8x axb; do bad --size "$value"; done
 for value in 1,2,3 10,10,5,5 100,100,200,200 0,0,33,24 -1,0,5,5 a; do bad --crop "$value"; done
 bad --color blue rgb spectral
@@ -54,13 +56,29 @@ bad --set maxdeth=1 'did you mean "maxdepth"'
 bad --set samplr=sobol 'did you mean "sampler"'
 bad --set maxdepth key=value
 for value in maxdepth=x maxdepth=-3 maxdepth= segments=0 roulette=maybe alpha=0 alpha=2 alpha=nan samplelights=maybe mis=2 \
-    hemisphere=flat sampler=halton xsamples=2 jitter=true filter=none radius=-1 radius=x iso=0 iso=nan maxcomponentvalue=-1; do
+    hemisphere=flat sampler=halton xsamples=2 jitter=true filter=none filterradius=0 radius=-1 radius=x iso=0 iso=nan maxcomponentvalue=-1; do
     bad --set "$value" "--set ${value%%=*}"
 done
 run 2 render scene.pbrt --set sampler=stratified --set xsamples=0
 says "--set xsamples"
 run 2 render scene.pbrt --integrator direct --set alpha=0.5
 says "--set alpha"
+# Keys of photons, where they mean something and where they do not.
+photon() { # INTEGRATOR KEY=VALUE
+    run 2 render scene.pbrt --integrator "$1" --set "$2"
+    says "--set ${2%%=*}:"
+}
+for value in causticphotons=-2 causticphotons=x causticphotons=3000000000 nused=-1 nused=1.5 radius=-1 radius=nan causticradius=-1 kernel=triangle \
+    edgecorrection=maybe aim=2 visualize=photons maxphotondepth=-1 alpha=0 alpha=1.5 maxdepth=-1; do
+    photon sppm $value
+    photon photonmap $value
+done
+for value in indirectphotons=-1 finalgather=perhaps finalgathersamples=0 passes=0 maxdist=-1 maxspeculardepth=-1 photonsperiteration=5; do
+    photon photonmap $value
+done
+for value in photonsperiteration=-2 indirectphotons=5 finalgather=true passes=2 lightpaths=5; do photon sppm $value; done
+for value in lightpaths=0 lightpaths=-2 nused=5 alpha=0.5; do photon lightpath $value; done
+for value in nused=5 causticphotons=5 kernel=box passes=2; do photon path $value; done
 
 # A limit, missing files, and places that cannot be written: known before anything is rendered.
 run 3 render scene.pbrt --size 100000x100000

@@ -176,7 +176,7 @@ TEST_CASE("integrators") {
     auto const walk = as<PathIntegrator>(settings("Integrator \"randomwalk\"").integrator);
     CHECK_FALSE(walk.sample_lights);
     CHECK(walk.roulette.kind == RouletteKind::None);
-    for (char const* name : {"bdpt", "mlt", "sppm", "lightpath", "ao", "function", "simplevolpath"}) {
+    for (char const* name : {"bdpt", "mlt", "ao", "function", "simplevolpath"}) {
         CAPTURE(name);
         auto const scene = read("Integrator \"" + std::string(name) +
                                 "\" \"integer maxdepth\" 8 \"float whatever\" 1 WorldBegin");

@@ -87,8 +87,12 @@ inline std::vector<Integrator> integrators() {
     return {PathIntegrator{.max_depth = 6},
             DirectIntegrator{},
             WhittedIntegrator{.max_depth = 6},
-            PhotonMapIntegrator{.shooting = {.global_paths = 300}, .gather_samples = 2},
-            SppmIntegrator{.shooting = {.global_paths = 300}},
+            // Radii are given: to find some takes longer than a pass of these.
+            PhotonMapIntegrator{.shooting = {.global_paths = 300},
+                                .estimates = {.nused = 10, .radius = 0.5f, .edge_correction = true},
+                                .gather_samples = 2,
+                                .passes = 8},
+            SppmIntegrator{.shooting = {.global_paths = 300}, .estimates = {.nused = 0, .radius = 0.2f}},
             LightPathIntegrator{}};
 }
 inline std::vector<Sampler> samplers() {

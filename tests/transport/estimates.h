@@ -10,7 +10,7 @@
 namespace nephroid::test {
 
 inline constexpr Kernel kKernels[] = {Kernel::Box, Kernel::Cone, Kernel::Epanechnikov, Kernel::Gaussian};
-inline char const* name_of(Kernel k) {
+inline std::string name_of(Kernel k) {
     char const* const names[] = {"box", "cone", "Epanechnikov", "Gaussian"};
     return names[static_cast<int>(k)];
 }

@@ -31,7 +31,7 @@ struct MaterialData {
     bool oriented = false;   // the shading frame's x axis matters
     bool perturbed = false;  // a normal map or bumps
     bool mix = false;        // has to be resolved at each hit …
-    bool casts = false;  // may scatter (near-)specularly somewhere: throws caustics
+    bool casts = false;      // may scatter (near-)specularly somewhere: throws caustics
     bool passes = false;  // … and some of its parts, or it itself, let light pass as if nothing were there
 };
 

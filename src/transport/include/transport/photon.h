@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace nephroid {
 
@@ -37,8 +38,9 @@ std::array<Bits, 2> pack_direction(Vec3 v) {
     auto const pack = [&](float a) { return static_cast<Bits>((a * 0.5f + 0.5f) * kMost + 0.5f); };
     return {pack(x), pack(y)};
 }
+/// … and back, of no particular length.
 template <class Bits>
-Vec3 unpack_direction(std::array<Bits, 2> const& packed) {
+Vec3 unfold_direction(std::array<Bits, 2> const& packed) {
     constexpr float kStep = 2.0f / static_cast<float>(static_cast<Bits>(~Bits{0}));
     float x = static_cast<float>(packed[0]) * kStep - 1.0f, y = static_cast<float>(packed[1]) * kStep - 1.0f;
     float const z = 1.0f - std::abs(x) - std::abs(y);
@@ -47,7 +49,11 @@ Vec3 unpack_direction(std::array<Bits, 2> const& packed) {
         y = (1.0f - std::abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
         x = fx;
     }
-    return normalize(Vec3{x, y, z});
+    return {x, y, z};
+}
+template <class Bits>
+Vec3 unpack_direction(std::array<Bits, 2> const& packed) {
+    return normalize(unfold_direction(packed));
 }
 
 /// A photon as maps keep it, 32 bytes. Directions are right to 5e-5, normals to a degree; the largest lane of the power to
@@ -72,9 +78,14 @@ class Photon {
     [[nodiscard]] Vec3 p() const { return p_; }
     [[nodiscard]] Vec3 wi() const { return unpack_direction(wi_); }
     [[nodiscard]] Vec3 n() const { return unpack_direction(n_); }
+    /// Along n, not a unit vector: less work where only the angle to it matters.
+    [[nodiscard]] Vec3 along_n() const { return unfold_direction(n_); }
     [[nodiscard]] Spectrum power() const {
-        return unit_ * Spectrum(static_cast<float>(ratio_[0]), static_cast<float>(ratio_[1]),
-                                static_cast<float>(ratio_[2]), static_cast<float>(ratio_[3]));
+        // All lanes at once, which compilers do not see by themselves.
+        typedef std::uint16_t Ratios __attribute__((vector_size(8)));
+        Ratios ratios;
+        std::memcpy(&ratios, ratio_.data(), sizeof(ratios));
+        return unit_ * Spectrum(__builtin_convertvector(ratios, Spectrum::Lanes));
     }
     [[nodiscard]] std::uint32_t bounces() const { return bounces_; }
     [[nodiscard]] bool caustic() const { return (flags_ & kCaustic) != 0; }

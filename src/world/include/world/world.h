@@ -38,8 +38,8 @@ struct TraceSums;  // world/floor.h
 struct LightRay {
     EmissionSample emission;  // ray.o lies on the surface: move it off by p_error
     std::uint32_t light = 0;  // of all that there are to choose from (WorldCounts::lights)
-    float choice = 0;         // the probability of having chosen it …
-    float side = 1;           // … and, of a surface that shines on both sides, this one
+    float choice = 0;         // the probability of having chosen it; 1 where the densities contain it
+    float side = 1;           // of a surface that shines on both sides: the share of this one
     bool unseen = false;      // a surface that shines, but is not there: no ray finds it
 
     /// Where the ray begins.
