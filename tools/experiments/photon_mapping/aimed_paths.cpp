@@ -61,11 +61,9 @@ void aimed_paths(Lab const& lab) {
     Page& page = lab.page;
     page.section("Aim");
     page.text(
-        "Of the paths that a lamp sends anywhere, few meet what casts caustics. Aimed ones are sent towards "
-        "what "
-        "reflects or refracts alone, and carry less: in the mean the same light. The room is one of 10 × 8 × "
-        "4 "
-        "with a glass ball of radius 0.1 in a corner.");
+        "Of the paths that a lamp sends anywhere, few meet what casts caustics. Aimed ones are sent "
+        "towards what reflects or refracts alone, and carry less: in the mean the same light. The room is "
+        "one of 10 × 8 × 4 with a glass ball of radius 0.1 in a corner.");
     page.code("Integrator \"photonmap\" \"bool aim\" true|false");
     constexpr std::uint64_t kPlain = 10;  // times as many: few of them are stored
     std::uint64_t const paths = lab.quick ? 20000 : 400000;
@@ -96,9 +94,8 @@ void aimed_paths(Lab const& lab) {
                 "stored per path", "… aimed", "gain", "power, aimed ÷ not aimed"},
                rows);
     page.text(
-        "The last column should be 1, to its standard error, nearly all of which is of the few photons that "
-        "are "
-        "stored without aim.");
+        "The last column should be 1, to its standard error, nearly all of which is of the few photons "
+        "that are stored without aim.");
 }
 
 }  // namespace nephroid::experiment

@@ -67,11 +67,10 @@ void bias_and_noise(Lab const& lab) {
     Page& page = lab.page;
     page.section("Bias and noise");
     page.text(
-        "A point light over a floor, and a small mirror beside it: the mirror throws a patch of light on the "
-        "floor, whose radiance has a closed form, with sharp edges. Only the caustic map is asked, at "
-        "points. "
-        "The more photons an estimate takes, the less it scatters, and the farther it reaches: over edges, "
-        "most of all.");
+        "A point light over a floor, and a small mirror beside it: the mirror throws a patch of light on "
+        "the floor, whose radiance has a closed form, with sharp edges. Only the caustic map is asked, at "
+        "points. The more photons an estimate takes, the less it scatters, and the farther it reaches: "
+        "over edges, most of all.");
     page.code(ask(kPaths, 100, "epanechnikov"));
     int const n = lab.pixels(48);
     Setup const setup = patch_setup(kSmallMirror, n);
@@ -110,8 +109,8 @@ void bias_and_noise(Lab const& lab) {
         if (both.y[i] < both.y[best]) best = i;
     page.text(
         fmt::format("{} maps of {} paths each; shares of the mean radiance. Noise falls with the slope {}; "
-                    "an estimate of "
-                    "k independent photons has −1/2. With so many photons, {} an estimate are best.",
+                    "an estimate of k independent photons has −1/2. With so many photons, {} an estimate "
+                    "are best.",
                     maps, thousands(paths), fixed(log_log_slope(noise.x, noise.y), 2), ks[best]));
 }
 
@@ -119,8 +118,8 @@ void kernels(Lab const& lab) {
     Page& page = lab.page;
     page.section("Kernels");
     page.text(
-        "How photons are weighed by their distance, over the same patch of light, with the same photons, 100 "
-        "an estimate; and below the glass ball of `scenes/cornell-spheres.pbrt`, 60 an estimate.");
+        "How photons are weighed by their distance, over the same patch of light, with the same photons, "
+        "100 an estimate; and below the glass ball of `scenes/cornell-spheres.pbrt`, 60 an estimate.");
     int const n = lab.pixels(48);
     Setup const setup = patch_setup(kSmallMirror, n);
     Picture const truth = patch_reference(kSmallMirror, setup).picture;
@@ -149,8 +148,8 @@ void kernels(Lab const& lab) {
     page.image("kernels.png", "The caustic below a glass ball by kernel");
     page.table({"100 photons an estimate", "bias, RMS", "far from edges, mean", "noise, RMS", "both"}, rows);
     page.text(
-        "At the same number of photons a kernel that falls off sees less far: less bias, more noise. The box "
-        "shows each photon's disk.");
+        "At the same number of photons a kernel that falls off sees less far: less bias, more noise. The "
+        "box shows each photon's disk.");
 }
 
 }  // namespace nephroid::experiment

@@ -33,7 +33,7 @@ struct Scene {
     std::string name;
     Window shown;  // where the caustic is
     int depth;
-    // Where the camera sees the caustic on a diffuse surface, and nothing else: there light tracing finds all light.
+    // Where the camera sees the caustic on a diffuse surface, and nothing else: light tracing finds all of that.
     std::optional<Window> witnessed;
     bool meets_light = true;  // paths from the camera can
 };
@@ -81,12 +81,10 @@ void equal_time(Lab const& lab) {
     double const seconds = 6, longer = 36;
     page.text(
         fmt::format("`scenes/cup.pbrt`, `ring`, `goblet` and `pool`, {} seconds each, in rgb mode; shown, "
-                    "and measured, is "
-                    "where their caustics are. The reference is the mean of two renders by `sppm` of {} "
-                    "seconds each, under "
-                    "other seeds; what lies between them says how far it may be off. (It shares a little of "
-                    "the blur that "
-                    "`sppm` has.) The goblet's lamp is a point: path tracing never finds its caustic.",
+                    "and measured, is where their caustics are. The reference is the mean of two renders "
+                    "by `sppm` of {} seconds each, under other seeds; what lies between them says how far "
+                    "it may be off. (It shares a little of the blur that `sppm` has.) The goblet's lamp is "
+                    "a point: path tracing never finds its caustic.",
                     number(seconds, 1), number(longer, 2)));
     page.code(ways(10)[0].directives + "\n\n" + ways(10)[1].directives + "\n\n" + ways(10)[2].directives);
     int const width = lab.pixels(336), height = lab.pixels(252);
@@ -140,21 +138,18 @@ void equal_time(Lab const& lab) {
     }
     write_sheet(page.file("equal-time.png"), {"path", "photonmap", "sppm", "reference"}, sheet);
     page.image("equal-time.png",
-               "Cup, ring, goblet and pool: path tracing, photon mapping, progressive photon "
-               "mapping in equal time, and the reference");
+               "Cup, ring, goblet and pool: path tracing, photon mapping, progressive photon mapping in "
+               "equal time, and the reference");
     page.table({"relMSE where the caustic is", "path", "photonmap", "sppm", "of the reference (estimated)",
                 "path ÷ photonmap", "path ÷ sppm", "whole picture: path ÷ photonmap", "path ÷ sppm"},
                rows);
     page.subsection("A witness");
     page.text(
         "Light tracing estimates nothing by density: photon paths are connected to the camera and drawn "
-        "where "
-        "they are seen. What the camera sees in mirrors or through glass it misses, so that windows are "
-        "compared "
-        "that show the caustic on coffee, paper and table alone, and the pool is left out. It is not aimed, "
-        "so that "
-        "few of its paths come by where lamps are far. Path tracing, where it can meet the lamp, is a second "
-        "witness. Four renders each, whose spread gives the standard error.");
+        "where they are seen. What the camera sees in mirrors or through glass it misses, so that windows "
+        "are compared that show the caustic on coffee, paper and table alone, and the pool is left out. It "
+        "is not aimed, so that few of its paths come by where lamps are far. Path tracing, where it can "
+        "meet the lamp, is a second witness. Four renders each, whose spread gives the standard error.");
     page.table({"mean radiance of the window", "reference", "light tracing", "path tracing"}, witnesses);
 }
 

@@ -108,8 +108,7 @@ void both_maps(Lab const& lab) {
     page.subsection("Global, caustic, both");
     page.text(
         "The report's Figure 22: each map, and their sum; 88 photons an estimate. The global map holds all "
-        "photons, those of caustics "
-        "as well: the sum, which is for looking at, has caustics twice.");
+        "photons, those of caustics as well: the sum, which is for looking at, has caustics twice.");
     page.code(show("global|caustic|both", 50000, 50000, 88));
     int const n = lab.pixels(200);
     Setup const setup = sized_file("cornell-spheres.pbrt", n, n);

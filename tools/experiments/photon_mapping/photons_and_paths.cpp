@@ -35,10 +35,9 @@ void photons_and_paths(Lab const& lab) {
     int const photons = lab.quick ? 40 : 6000, paths = lab.quick ? 4 : 60, normals = lab.quick ? 20 : 1200;
     page.text(
         "The report's Figures 17 to 19, over a dimmed picture: photons of both maps where they landed, in "
-        "the "
-        "colour of their power; paths of both, white; normals of the surfaces as the photons keep them, in "
-        "16 "
-        "bits, green. All are drawn where nothing hides them from the camera. All three at once:");
+        "the colour of their power; paths of both, white; normals of the surfaces as the photons keep "
+        "them, in 16 bits, green. All are drawn where nothing hides them from the camera. All three at "
+        "once:");
     page.code(fmt::format(
         "nephroid render scenes/cornell-spheres.pbrt -o marked.png --show-photons={} --show-paths {} "
         "--show-normals {}",

@@ -39,12 +39,10 @@ void pictures_of_the_report(Lab const& lab) {
     page.section("The report's pictures");
     page.text(
         fmt::format("Figures 23 to 25 of the report, with the numbers that it gives: photons stored, photons "
-                    "an estimate, "
-                    "samples along a pixel's edge, and for the first a path depth of 4. Direct light is "
-                    "sampled, caustics "
-                    "come from their map, and indirect light from {} gather rays a sample. The report's "
-                    "pictures took two "
-                    "to three hours each; it does not say how large they were.",
+                    "an estimate, samples along a pixel's edge, and for the first a path depth of 4. "
+                    "Direct light is sampled, caustics come from their map, and indirect light from {} "
+                    "gather rays a sample. The report's pictures took two to three hours each; it does not "
+                    "say how large they were.",
                     kGatherRays));
     int const n = lab.pixels(256);
     std::uint64_t const fewer = lab.quick ? 100 : 1;
