@@ -107,8 +107,9 @@ void both_maps(Lab const& lab) {
     Page& page = lab.page;
     page.subsection("Global, caustic, both");
     page.text(
-        "The report's Figure 22: each map, and their sum; 88 photons an estimate. The global map holds all "
-        "photons, those of caustics as well: the sum, which is for looking at, has caustics twice.");
+        "The report's Figure 22: each map, and their sum; 88 photons an estimate. By itself the global map "
+        "holds "
+        "all photons, those of caustics as well; in the sum it leaves them to the other.");
     page.code(show("global|caustic|both", 50000, 50000, 88));
     int const n = lab.pixels(200);
     Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
