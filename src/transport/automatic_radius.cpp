@@ -103,7 +103,7 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
     });
     // All photons within a radius: some dozens of them, of which other sides and walls take a third. The nearest few: a bound that is
     // seldom reached.
-    float const wanted = nused == 0 ? 40.0f : static_cast<float>(nused);
+    float const wanted = nused == 0 ? 32.0f : static_cast<float>(nused);
     float const room = nused == 0 ? 1.0f : 4.0f;
     Bounds3 const& b = job.world().bounds();
     float const size = length(b.hi - b.lo);

@@ -78,13 +78,15 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
         if (!v.is.near_specular) break;
         if (!scatter(c, walk, v)) return;
     }
-    seen[LightClass::Caustic] +=
-        walk.beta * reflected(c, walk, v, maps.caustic, maps.caustic_rule, kAnyLength).radiance;
+    Estimate const caustic = reflected(c, walk, v, maps.caustic, maps.caustic_rule, kAnyLength);
+    seen[LightClass::Caustic] += walk.beta * caustic.radiance;
+    Estimate global;
     if (!p.final_gather) {
-        seen[LightClass::Indirect] +=
-            walk.beta * reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength).radiance;
+        global = reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength);
+        seen[LightClass::Indirect] += walk.beta * global.radiance;
         gather_rays = 1;  // for lights that scattering finds, and for delta parts
     }
+    if (aov) record_estimates(caustic, global, *aov);
     SeenLight brought;
     for (std::uint32_t s = 0; s < gather_rays; ++s) {
         PathSampler sampler = c.sampler.branch(s, gather_rays);

@@ -11,14 +11,22 @@ float PhotonPlan::shrunk(float radius, float alpha, std::uint64_t pass) {
     // prod over j = 1 … pass of (j + alpha) / (j + 1) = Gamma(pass + 1 + alpha) / (Gamma(1 + alpha) Gamma(pass + 2)).
     auto const n = static_cast<double>(pass);
     auto const a = static_cast<double>(alpha);
-    double const log_square = std::lgamma(n + 1 + a) - std::lgamma(1 + a) - std::lgamma(n + 2);
+    // Far out the difference of the logarithms would be all rounding: Gamma(n + 1 + a) / Gamma(n + 2) is (n + 1 + a / 2)^(a - 1) there,
+    // but for a share of 1 / n^2.
+    constexpr double kFar = 1e4;
+    double const log_ratio =
+        n < kFar ? std::lgamma(n + 1 + a) - std::lgamma(n + 2) : (a - 1) * std::log(n + 1 + a / 2);
+    double const log_square = log_ratio - std::lgamma(1 + a);
     return static_cast<float>(static_cast<double>(radius) * std::exp(0.5 * log_square));
 }
 
 ShotKind global_shot(Integrator const& integrator) {
     return match(integrator, [](auto const& i) {
         bool all = false;
-        if constexpr (requires { i.visualize; }) all = i.visualize != PhotonView::None;
+        if constexpr (requires { i.visualize; }) {
+            if (i.visualize == PhotonView::Both) return ShotKind::Others;
+            all = i.visualize != PhotonView::None;
+        }
         if constexpr (requires { i.final_gather; }) all = all || i.final_gather;
         return all ? ShotKind::Global : ShotKind::Indirect;
     });

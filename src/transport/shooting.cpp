@@ -54,9 +54,12 @@ struct Shoot {
                 return true;
             case ShotKind::Caustic:
                 return caustic;
-            default:
-                return walk.vertex > 0 && !(caustic && sorts_caustics);
+            case ShotKind::Others:
+                return !(caustic && sorts_caustics);
+            case ShotKind::Indirect:
+                break;
         }
+        return walk.vertex > 0 && !(caustic && sorts_caustics);
     }
 };
 

@@ -93,8 +93,7 @@ Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w
 }
 
 bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spectrum& radiance) {
-    RayKind const kind =
-        walk.vertex == 0 && walk.mode == Mode::Radiance ? RayKind::Camera : RayKind::Bounce;
+    RayKind const kind = walk.vertex == 0 && walk.mode == Mode::Radiance ? RayKind::Camera : RayKind::Bounce;
     SurfaceHit& hit = v.hit;
     Vec3 const origin = walk.ray.o;  // before any surface was passed: portals are seen from here
     double mix = -1;                 // what decides at mixes; not drawn yet

@@ -126,6 +126,11 @@ TEST_CASE("the nearest k among photons of another surface, and within half of th
                 how.shrink = shrink;
                 Estimate const e = probe.irradiance(map, how, {0, 0, 0}, kUp);
                 CHECK(e.photons < 99);
+                if (m == 0) {
+                    how.shrink = 1;
+                    CHECK(e.radius ==
+                          doctest::Approx(shrink * probe.irradiance(map, how, {0, 0, 0}, kUp).radius));
+                }
                 sum += static_cast<double>(e.radiance[0]);
             }
             mean.add(sum / maps);

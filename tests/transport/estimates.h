@@ -40,8 +40,9 @@ class Probe {
         walk.hero_only = hero_only;
         return nephroid::reflected(c, walk, v, map, how, most_bounces);
     }
-    Estimate irradiance(PhotonMap const& map, EstimateRule const& how, Vec3 p, Vec3 n) {
-        return nephroid::irradiance(job_.world(), map, p, n, how, nearest_, stats_);
+    Estimate irradiance(PhotonMap const& map, EstimateRule const& how, Vec3 p, Vec3 n,
+                        std::uint32_t without = kNoPhoton) {
+        return nephroid::irradiance(job_.world(), map, p, n, how, nearest_, stats_, without);
     }
     [[nodiscard]] std::uint64_t rays() const { return stats_.rays[0] + stats_.rays[1] + stats_.rays[2]; }
 

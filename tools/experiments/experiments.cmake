@@ -16,3 +16,6 @@ experiment(surfaces)
 experiment(photon_mapping)
 # Measured materials are made by the recipe of the tests of that model.
 target_include_directories(experiment_surfaces PRIVATE ${PROJECT_SOURCE_DIR}/tests/model ${PROJECT_SOURCE_DIR}/tests/include)
+# Photons are drawn as `nephroid render --show-photons` draws them.
+target_link_libraries(experiment_photon_mapping PRIVATE apps)
+target_include_directories(experiment_photon_mapping PRIVATE ${PROJECT_SOURCE_DIR}/src)

@@ -73,8 +73,9 @@ Settings with(Settings const& base, std::string const& directives) {
 Picture picture(Film const& film) {
     Picture p{film.width(), film.height(), {}};
     p.rgb.reserve(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height));
-    for (int y = 0; y < p.height; ++y)
-        for (int x = 0; x < p.width; ++x) {
+    auto const crop = film.crop();
+    for (int y = crop[2]; y < crop[3]; ++y)
+        for (int x = crop[0]; x < crop[1]; ++x) {
             PixelSums const& s = film.pixel(x, y);
             p.rgb.push_back({s.rgb[0] / s.weight, s.rgb[1] / s.weight, s.rgb[2] / s.weight});
         }

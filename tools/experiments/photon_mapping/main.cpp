@@ -21,19 +21,19 @@ constexpr Section kSections[] = {{"Whitted and path tracing", whitted_and_paths}
 void introduction(Page& page) {
     page.text(
         "Light that is sent out by lamps, kept where it lands, and asked for by what the camera sees: "
-        "Figures 16 to 25 of the student's report of 2010 that this renderer began with, made anew with its "
-        "settings, and what it did not measure. Made by");
+        "Figures 16 to 25 of the student's report of 2010 that this renderer began with, made anew with "
+        "its settings, and what it did not measure. Made by");
     page.code("./dev experiment photon-mapping");
     page.text(
-        "which shoots and renders everything again and writes this page: no number or picture on it was put "
-        "there by hand.");
+        "which shoots and renders everything again and writes this page: no number or picture on it was "
+        "put there by hand.");
     page.list({
         "The **global map** keeps photons wherever they land on a surface that is not specular; the "
         "**caustic map** those that mirrors and glass alone have thrown there.",
         "The report counts photons that are **stored**. A pass of ours **emits** a number of paths that is "
         "fixed beforehand, and divides the lamp's power by it; how many to emit so that about the wanted "
-        "number is stored is found by a small shot beforehand. Both numbers are given, as they were counted "
-        "in the render.",
+        "number is stored is found by a small shot beforehand. Both numbers are given, as they were "
+        "counted in the render.",
         "**relMSE** is the mean of (a − b)² / (b² + 0.01) over pixels and channels, b being the reference. "
         "**Error** is the relative RMSE: the root of the mean squared difference as a share of the "
         "reference's mean.",

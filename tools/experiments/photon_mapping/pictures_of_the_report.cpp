@@ -11,7 +11,7 @@ namespace nephroid::experiment {
 
 namespace {
 
-constexpr int kGatherRays = 4;  // a sample; the report gathered with each path
+constexpr int kGatherRays = 8;  // a sample; the report gathered with each path
 
 struct Figure {
     int number;
@@ -39,12 +39,10 @@ void pictures_of_the_report(Lab const& lab) {
     page.section("The report's pictures");
     page.text(
         fmt::format("Figures 23 to 25 of the report, with the numbers that it gives: photons stored, photons "
-                    "an estimate, "
-                    "samples along a pixel's edge, and for the first a path depth of 4. Direct light is "
-                    "sampled, caustics "
-                    "come from their map, and indirect light from {} gather rays a sample. The report's "
-                    "pictures took two "
-                    "to three hours each; it does not say how large they were.",
+                    "an estimate, samples along a pixel's edge, and for the first a path depth of 4. "
+                    "Direct light is sampled, caustics come from their map, and indirect light from {} "
+                    "gather rays a sample. The report's pictures took two to three hours each; it does not "
+                    "say how large they were.",
                     kGatherRays));
     int const n = lab.pixels(256);
     std::uint64_t const fewer = lab.quick ? 100 : 1;
@@ -77,10 +75,7 @@ void pictures_of_the_report(Lab const& lab) {
         cells.push_back("2 to 3 hours");
         rows.push_back(cells);
         labels.push_back(f.name);
-        double const exposure = exposure_for(r.picture, 0.95);
-        for (auto& pixel : r.picture.rgb)
-            for (double& v : pixel) v *= exposure;
-        row.pictures.push_back(std::move(r.picture));
+        row.pictures.push_back(exposed(std::move(r.picture), 0.95));
     }
     write_sheet(page.file("report.png"), labels, {row});
     page.image("report.png", "Spheres, reflective boxes and water, with the report's settings");

@@ -12,11 +12,10 @@ void progressive_passes(Lab const& lab) {
     Page& page = lab.page;
     page.section("Passes");
     page.text(
-        "The same floor below a mirror so large that all of it lies in the mirrored light. Each pass shoots "
-        "new "
-        "photons and has a smaller radius; α says how fast it shrinks: with 1 it stays. The variance of the "
-        "mean falls as N to the power of −α, the square of the bias as N to that of 2α − 2: where noise is "
-        "what is left, the error has the slope −α/2.");
+        "The same floor below a mirror so large that all of it lies in the mirrored light. Each pass "
+        "shoots new photons and has a smaller radius; α says how fast it shrinks: with 1 it stays. The "
+        "variance of the mean falls as N to the power of −α, the square of the bias as N to that of 2α − "
+        "2: where noise is what is left, the error has the slope −α/2.");
     std::string const format =
         "Integrator \"sppm\" \"string visualize\" \"caustic\" \"integer photonsperiteration\" 1 \"integer "
         "causticphotons\" {} \"float radius\" 0.2 \"float alpha\" {}\nSampler \"independent\"";

@@ -1,6 +1,7 @@
 #include "runs.h"
 
 #include "image/compare.h"
+#include "sheet.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -87,10 +88,19 @@ Setup cropped(Setup setup, double x0, double x1, double y0, double y1) {
     return setup;
 }
 
+Picture exposed(Picture p, double share) {
+    double const exposure = exposure_for(p, share);
+    for (auto& color : p.rgb)
+        for (double& v : color) v *= exposure;
+    return p;
+}
+
 double relative_mse(Picture const& p, Picture const& reference) {
     return rel_mse(image_of(p), image_of(reference));
 }
 
-std::string thousands(std::uint64_t n) { return number(static_cast<double>(n) / 1000) + "k"; }
+std::string thousands(std::uint64_t n) {
+    return n < 1000 ? std::to_string(n) : number(static_cast<double>(n) / 1000) + "k";
+}
 
 }  // namespace nephroid::experiment

@@ -40,9 +40,11 @@ Setup box_with(std::string const& contents, int pixels);
 /// Only the pixels [x0, x1) x [y0, y1), in shares of the picture.
 Setup cropped(Setup setup, double x0, double x1, double y0, double y1);
 
+/// Times exposure_for(p, share): for sheets of pictures that are not compared in brightness.
+Picture exposed(Picture p, double share);
 /// image/compare.h's rel_mse.
 double relative_mse(Picture const& p, Picture const& reference);
-/// In thousands: "44.1k".
+/// In thousands, from there on: "44.1k".
 std::string thousands(std::uint64_t n);
 
 }  // namespace nephroid::experiment

@@ -46,13 +46,12 @@ void whitted_and_paths(Lab const& lab) {
     row.pictures.push_back(reference.picture);
     write_sheet(page.file("whitted.png"), labels, {row});
     page.image("whitted.png",
-               "The Cornell box with a silver and a glass ball: Whitted's tracer and path "
-               "tracing");
+               "The Cornell box with a silver and a glass ball: Whitted's tracer and path tracing");
     page.table({fmt::format("`scenes/cornell-spheres.pbrt`, {0} × {0}", n), "mean radiance", "error", "time"},
                table);
     page.text(
-        "What is left of noise after so many samples of path tracing is the caustic below the glass ball and "
-        "on the wall: there a path from the camera has to meet the lamp by chance.");
+        "What is left of noise after so many samples of path tracing is the caustic below the glass ball "
+        "and on the wall: there a path from the camera has to meet the lamp by chance.");
 }
 
 }  // namespace nephroid::experiment

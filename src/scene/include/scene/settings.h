@@ -107,7 +107,7 @@ enum class PhotonView : std::uint8_t {
     None,
     Global,   // the estimate from the global map, at the first surface that is not specular
     Caustic,  // … from the caustic map
-    Both,     // … their sum
+    Both,     // … their sum, in which the global map leaves caustics to the other
     Radiance  // the irradiance that was precomputed at photons, as it is looked up
 };
 /// What a pass shoots. Paths are counted as they are emitted, not as they are stored: the law, 1.4.

@@ -12,7 +12,8 @@ namespace nephroid {
 /// Which photons are kept.
 enum class ShotKind : std::uint8_t {
     Global,    // L (S|D)* D: every hit on a surface that is not (near-)specular
-    Indirect,  // … without direct light, L D, and without caustics where a map of their own has them: what is read directly
+    Others,    // … without caustics where a map of their own has them
+    Indirect,  // … and without direct light, L D: what is read where the camera looks
     Caustic    // L S+ D: the first such hit, of paths that were thrown there by specular surfaces alone
 };
 
