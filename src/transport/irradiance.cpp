@@ -35,7 +35,7 @@ IrradianceMap::IrradianceMap(World const& world, PhotonMap const& map, EstimateR
             place.p = photon.p();
             place.n = photon.n();
             Estimate const e = irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays,
-                                          static_cast<std::uint32_t>(i * kEvery));
+                                          {static_cast<std::uint32_t>(i * kEvery), kEvery});
             place.power = e.radiance;
             chunks[chunk].radii += static_cast<double>(e.radius);
             places[i] = Photon(place);

@@ -134,7 +134,8 @@ std::pair<char const*, Make> const kMaterials[] = {
     {"plastic", plastic},
     {"leaf", leaf},
     {"half mirror", half_mirror},
-    {"a quarter diffuse, or not there", veil}};
+    {"a quarter diffuse, or not there", veil},
+    {"alpha 0.4", [](Scene& s) { return diffuse(s, 0.8f); }}};
 
 /// A room with a large lamp below its ceiling, and a ball on each side of it.
 Scene room_with(Make make, float alpha = 1) {
@@ -160,11 +161,10 @@ struct How {
     double room[kLightClasses] = {0.01, 0.02, 0.02, 0.01};  // for blur, as a share of the beauty
 };
 
-/// Each class equals the path tracer's.
-void check_classes(World const& world, Settings s, int max_depth, std::uint64_t camera_passes,
-                   std::vector<How> const& hows, double within) {
-    s.integrator = path(max_depth);
-    FilmMeans const truth = film_means(world, s, camera_passes, 1);
+/// Each class equals that of the settings' integrator, over so many passes.
+void check_classes(World const& world, Settings s, std::uint64_t passes, std::vector<How> const& hows,
+                   double within) {
+    FilmMeans const truth = film_means(world, s, passes, 1);
     for (How const& how : hows) {
         s.integrator = how.integrator;
         s.spp = how.spp;
@@ -195,14 +195,12 @@ void check_classes(World const& world, Settings s, int max_depth, std::uint64_t 
 
 TEST_CASE("each class of light equals the path tracer's, material by material") {
     for (auto const& [name, make] : kMaterials) {
-        if (std::getenv("ONLY") && std::string(name).find(std::getenv("ONLY")) == std::string::npos) continue;
         CAPTURE(name);
-        if (std::getenv("SHOW")) std::cout << "--- " << name << "\n";
-        World const world = compile(room_with(make, std::getenv("ALPHA") ? 0.4f : 1));
-        Settings s = settings(path(1), 12, 12);
+        World const world = compile(room_with(make, std::string(name) == "alpha 0.4" ? 0.4f : 1));
+        Settings s = settings(path(12), 12, 12);
         if (std::string(name) == "flint") s.color = ColorMode::Spectral;
-        int const n = samples(std::getenv("N") ? std::atoi(std::getenv("N")) : 4000, 40000);
-        check_classes(world, s, 12, static_cast<std::uint64_t>(samples(32, 320)),
+        int const n = samples(2500, 40000);
+        check_classes(world, s, static_cast<std::uint64_t>(samples(24, 320)),
                       {{"gathered", photon_map(n, true, 0, 0.05f), 4, 1},
                        {"read", photon_map(n, false, 0.05f, 0.05f), 4, 1},
                        {"sppm", progressive(12, n, 0.05f), 1, 2}},
@@ -210,28 +208,107 @@ TEST_CASE("each class of light equals the path tracer's, material by material") 
     }
 }
 
-TEST_CASE("probe") {
-    for (bool const sphere : {true, false})
-        for (Sampler const& sampler : {Sampler{SobolSampler{}}, Sampler{IndependentSampler{}}})
-            for (int const n : {1000, 30000})
-                for (int const nused : {20, 50, 200}) {
-                    Scene s;
-                    if (sphere)
-                        add(s, Sphere{}, diffuse(s, 0.5f));
-                    else
-                        add(s, box_mesh({-1, -1, -1}, {1, 1, 1}, true), diffuse(s, 0.5f)).light = white(1);
-                    if (sphere) s.add(point_light({0, 0, 0}, kPi));
-                    look_around(s, {0.1f, 0.2f, 0.3f});
-                    World const world = compile(std::move(s));
-                    PhotonMapIntegrator p = photon_map(n, true, 0, 0);
-                    p.estimates.nused = std::abs(nused);
-                    p.estimates.edge_correction = nused > 0;
-                    Settings how = settings(p, 8, 8);
-                    how.sampler = sampler;
-                    how.spp = 4;
-                    FilmMeans const m = film_means(world, how, 1, 1);
-                    std::cout << (sphere ? "sphere" : "box") << sampler.index() << " " << n << " " << nused << " direct "
-                              << m.light[0][1].mean() << " indirect " << m.light[2][1].mean() << " +- "
-                              << m.light[2][1].standard_error() << "\n";
-                }
+TEST_CASE("a point light and a sky: light tracing finds each class that the maps hold") {
+    // A floor seen from right above it, between balls of glass and metal and the light.
+    for (bool const sky_too : {false, true}) {
+        CAPTURE(sky_too);
+        Scene s;
+        add(s, floor_quad(1.5f), diffuse(s, Vec3{0.6f, 0.5f, 0.4f}));
+        add(s, Quad{{-1.5f, 1.2f, 0}, {0, 0, 1.5f}, {3, 0, 0}}, diffuse(s, 0.7f));
+        add(s, Sphere{0.4f, -0.4f, 0.4f}, glass(s)).to_group = translate(-0.5, 0, 0.9);
+        add(s, Sphere{0.4f, -0.4f, 0.4f}, rough_metal(s, 0.05f)).to_group = translate(0.7, 0, 0.9);
+        s.add(point_light({0, -0.3f, 2}, 2));
+        if (sky_too) s.add(sky(0.3f));
+        look_parallel(s, {0, 0, 0.4f}, {0, 0, -1}, 0.9f);
+        World const world = compile(std::move(s));
+        int const n = samples(4000, 40000);
+        LightPathIntegrator lights;
+        lights.max_depth = 8;
+        lights.paths = samples(30000, 300000);
+        check_classes(world, settings(lights, 12, 12), 1,
+                      {{"gathered", photon_map(n, true, 0, 0.04f), 4, 1},
+                       {"read", photon_map(n, false, 0.05f, 0.04f), 4, 1},
+                       {"sppm", progressive(8, n, 0.04f), 1, 2}},
+                      0.02);
+    }
+}
+
+TEST_CASE("closed forms: a furnace, a point light in a sphere, an integrating sphere") {
+    // L_e / (1 - R) = 2; rho I / (pi r^2 (1 - rho)) = 1; and rho Phi / (A (1 - rho)) of indirect irradiance, wherever the light is.
+    int const n = samples(4000, 100000);
+    for (bool const gathers : {true, false, false}) {
+        static int which = 0;
+        bool const sppm = which++ == 2;
+        Integrator const integrator = sppm ? Integrator{progressive(20, n, 0.1f)}
+                                           : Integrator{photon_map(n, gathers, gathers ? 0 : 0.1f, 0)};
+        CAPTURE(which);
+        auto const means = [&](Scene s, Vec3 eye) {
+            look_around(s, eye);
+            World const world = compile(std::move(s));
+            Settings how = settings(integrator, 12, 12);
+            how.spp = sppm ? 1 : 2;
+            return film_means(world, how, 2, 7);
+        };
+        double const room = 0.006 * (kSanitizerShare > 1 ? 4 : 1);
+        Scene furnace;
+        add(furnace, box_mesh({-1, -1, -1}, {1, 1, 1}, true), diffuse(furnace, 0.5f)).light = white(1);
+        auto const in_furnace = means(furnace, {0.1f, 0.2f, 0.3f});
+        CHECK(in_furnace.beauty[1].mean() == doctest::Approx(2).epsilon(room));
+        CHECK(in_furnace.light[0][1].mean() == doctest::Approx(1.5).epsilon(room));
+        CHECK(in_furnace.light[2][1].mean() == doctest::Approx(0.5).epsilon(3 * room));
+        Scene centre;
+        add(centre, Sphere{}, diffuse(centre, 0.5f));
+        centre.add(point_light({0, 0, 0}, kPi));
+        auto const lit = means(centre, {0.2f, -0.3f, 0.1f});
+        CHECK(lit.beauty[1].mean() == doctest::Approx(1).epsilon(room));
+        CHECK(lit.light[0][1].mean() == doctest::Approx(0.5).epsilon(1e-3));
+        Scene aside;
+        add(aside, Sphere{}, diffuse(aside, 0.5f));
+        aside.add(point_light({0.3f, 0.2f, -0.1f}, 1));
+        auto const even = means(aside, {0, 0, 0});
+        CHECK(even.light[2][1].mean() * kPiD / 0.5 == doctest::Approx(1).epsilon(2.5 * room));
+        for (auto const& m : {in_furnace, lit, even}) CHECK(m.light[1][1].mean() + m.light[3][1].mean() == 0);
+    }
+}
+
+TEST_CASE("closed forms: a mirror's caustic, and n^2 L inside a ball of glass") {
+    Scene s;
+    add(s, floor_quad(3), diffuse(s, 0.5f));
+    add(s, Quad{{1, -9, 0}, {0, 18, 0}, {0, 0, 9}}, mirror(s, 1.0f));
+    s.add(point_light({0, 0, 1}, 1));
+    look_parallel(s, {0.5f, 0, 0.02f}, {0, 0, -1}, 0.005f);
+    World const floor = compile(std::move(s));
+    Scene ball;
+    add(ball, Sphere{}, glass(ball));
+    ball.add(sky(1));
+    look_around(ball, {0, 0, 0});
+    World const inside = compile(std::move(ball));
+    double const to_radiance = 0.5 / kPiD;
+    int const n = samples(20000, 200000);
+    for (Integrator const& integrator :
+         {Integrator{photon_map(n, true, 0, 0.1f)}, Integrator{photon_map(n, false, 0.1f, 0.1f)},
+          Integrator{progressive(5, n, 0.1f)}}) {
+        auto const means = film_means(floor, settings(integrator, 2, 2), 1, 3);
+        CHECK(means.light[0][1].mean() == doctest::Approx(0.715542 * to_radiance).epsilon(0.005));
+        // Blurred over 0.1, which takes less than 0.3%.
+        Mean const& caustic = means.light[1][1];
+        CHECK(caustic.half_width(1e-4) < 0.03 * (kSanitizerShare > 1 ? 3 : 1) * 0.170677 * to_radiance);
+        CHECK(std::abs(caustic.mean() - 0.170677 * to_radiance) <
+              caustic.half_width(1e-4) + 0.003 * 0.170677 * to_radiance);
+        // From the middle of the ball every ray leaves straight; what is reflected inside is reflected again.
+        Settings how = settings(integrator, 4, 4);
+        auto const seen = film_means(inside, how, 16, 4);
+        CHECK(seen.light[3][1].mean() == doctest::Approx(2.25).epsilon(0.02));
+        CHECK(seen.light[0][1].mean() + seen.light[1][1].mean() + seen.light[2][1].mean() == 0);
+    }
+}
+
+TEST_CASE("sppm cut at a depth is what path tracing is at that depth") {
+    Scene s = room_with(kMaterials[2].second);
+    World const world = compile(std::move(s));
+    for (int const depth : {0, 1, 2, 3}) {
+        CAPTURE(depth);
+        check_classes(world, settings(path(depth), 12, 12), static_cast<std::uint64_t>(samples(24, 240)),
+                      {{"sppm", progressive(depth, samples(2500, 40000), 0.05f), 1, 2}}, 0.02);
+    }
 }
