@@ -103,7 +103,8 @@ std::vector<OverrideKey> estimates() {
          }},
         {"nused", "photonmap, sppm: photons of an estimate at most; 0: all within the radius",
          [](Settings& s, std::string const& v) {
-             with_maps(s, "nused", [&](auto& i) { i.estimates.nused = to_int("nused", v, 0); });
+             with_maps(s, "nused",
+                       [&](auto& i) { i.estimates.nused = to_int("nused", v, 0); });  // 1: see validate
          }},
         {"kernel", "photonmap, sppm: box, cone, epanechnikov or gaussian: how the distance of photons weighs",
          [](Settings& s, std::string const& v) {

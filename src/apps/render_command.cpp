@@ -262,7 +262,7 @@ int run(RenderOptions const& o) {
     stats.render_seconds = result.seconds;
     lap();
     if (result.passes > 0 && world.counts().lights > 0 && stored_nothing(job, result.photons))
-        log.note(fmt::format(
+        log.warning(fmt::format(
             "{}: warning: no photon was stored: nothing that is not a mirror or glass was met, or "
             "none were to be shot; light that maps would show is missing (black)",
             o.scene));
@@ -291,8 +291,12 @@ int run(RenderOptions const& o) {
     develop.metadata = metadata(job, film, stats);
     Image overlay;
     if (draws(o.overlay) && pictures && !interrupted) {
-        overlay = draw_photons(RenderJob(world, photon_settings(settings)), passes.begin, o.overlay);
-        develop.over = &overlay;
+        try {
+            overlay = draw_photons(RenderJob(world, photon_settings(settings)), passes.begin, o.overlay);
+            develop.over = &overlay;
+        } catch (std::bad_alloc const&) {
+            log.error("out of memory: photons are not drawn over the picture");
+        }
     }
     for (std::string const& error :
          write_outputs(outputs, film, develop, [&](std::string const& text) { log.warning(text); }))

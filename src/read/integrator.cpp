@@ -125,6 +125,11 @@ void photon_parameters(Params& p, PhotonIntegrator& i) {
     i.shooting.max_depth = count(p, "maxphotondepth", i.shooting.max_depth, 0);
     i.shooting.aim = p.boolean("aim", i.shooting.aim);
     i.estimates.nused = count(p, "nused", i.estimates.nused, 0);
+    if (i.estimates.nused == 1)
+        p.fail(
+            "\"nused\" is 1, and the farthest photon of an estimate only tells its radius: give 0 for all "
+            "within "
+            "the radius, or at least 2");
     i.estimates.caustic_radius = radius(p, "causticradius");
     i.estimates.kernel = kKernels[p.choice("kernel", {"box", "cone", "epanechnikov", "gaussian"},
                                            static_cast<std::size_t>(i.estimates.kernel))];

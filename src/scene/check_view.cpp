@@ -95,6 +95,10 @@ void check_photons(Check const& c, PhotonShooting const& shooting, PhotonEstimat
               "the number of photon paths must not be negative");
     c.require(shooting.max_depth >= 0, "the integrator's maxphotondepth must not be negative");
     c.require(estimates.nused >= 0, "the integrator's nused must not be negative");
+    c.require(estimates.nused != 1,
+              "an estimate by 1 photon knows nothing, for the farthest only tells the radius: nused must be "
+              "0, for all "
+              "within the radius, or at least 2");
     if (estimates.nused > kMostUsed)
         c.limit("an estimate uses at most 2^24 photons: make nused smaller, or 0 for all within the radius");
     c.require(estimates.radius >= 0 && estimates.caustic_radius >= 0,

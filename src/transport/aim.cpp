@@ -119,12 +119,13 @@ class Aim::Builder {
         std::vector<double> gets(count);
         double all = 0;
         Vec3 from{0, 0, 0};
+        bool shone = false;
         for (std::uint64_t i = 0; i < probes; ++i) {
             Probe const u(i);
             auto const ray = world_.emit(light, nullptr, u.position, u.direction, Wavelengths::rgb());
             double const watts = power_of(ray);
             all += watts;
-            if (ray) from = ray->emission.ray.o;
+            if (ray) from = ray->emission.ray.o, shone = true;
             for (std::size_t b = 0; b < count; ++b)
                 if (ray && meets(aim_.balls_[b], ray->emission.ray)) gets[b] += watts;
         }
@@ -144,7 +145,9 @@ class Aim::Builder {
             // Of rays that are sent, how many were worth it: those of equal power, or those that meet the ball.
             double const aimed = squares > 0 ? sum * sum / (n * squares) : 0;
             double const plain = all > 0 ? gets[b] / all : 0;
-            bool const surrounded = !world_.is_boundless(light) && distance(from, ball.centre) <= ball.radius;
+            // Nobody knows where a light is of which no probe came.
+            bool const surrounded =
+                !shone || (!world_.is_boundless(light) && distance(from, ball.centre) <= ball.radius);
             if (plain > aimed || surrounded) {
                 weights[count] = share(power);
                 continue;

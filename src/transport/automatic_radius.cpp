@@ -26,10 +26,16 @@ struct Seen {
     std::vector<float> footprints;  // of pixels there
 };
 
+Vec2 size_of(RenderJob const& job) {
+    Vec2i const r = job.settings().film.resolution;
+    return {static_cast<float>(r.x), static_cast<float>(r.y)};
+}
+
 /// Along a grid of pixels' centres, through whatever is specular.
 Seen look_around(RenderJob const& job) {
     Seen seen;
-    auto const crop = job.crop();
+    // The whole picture, whatever the crop window: a pixel is the same in either.
+    Vec2 const size = size_of(job);
     RayStats uncounted;
     constexpr int kMostBounces = 16;
     for (int j = 0; j < kLooks; ++j)
@@ -38,8 +44,7 @@ Seen look_around(RenderJob const& job) {
                                 0);
             Vec2 const share{(static_cast<float>(i) + 0.5f) / kLooks,
                              (static_cast<float>(j) + 0.5f) / kLooks};
-            Vec2 const film{lerp(share.x, static_cast<float>(crop[0]), static_cast<float>(crop[1])),
-                            lerp(share.y, static_cast<float>(crop[2]), static_cast<float>(crop[3]))};
+            Vec2 const film = share * size;
             PathContext c{job, job.world(), job.pass_wavelengths(0), sampler, uncounted};
             Walk walk = Walk::from_camera(c, job.camera().ray(film, {0.5f, 0.5f}).ray);
             Vertex v;
@@ -80,14 +85,13 @@ float spacing(PhotonMap const& map, std::vector<Vec3> const& places, std::uint32
 /// Caustics are bright in few places: they are asked about where they are, as far as the camera might see it.
 std::vector<Vec3> where_photons_are(RenderJob const& job, PhotonMap const& map) {
     std::vector<Vec3> in_view, all;
-    auto const crop = job.crop();
+    Vec2 const size = size_of(job);
     std::size_t const step = std::max<std::size_t>(1, map.size() / kMostAt);
     for (std::size_t i = 0; i < map.size(); i += step) {
         Vec3 const p = map[i].p();
         all.push_back(p);
         auto const raster = job.camera().project(p);
-        if (raster && raster->x >= static_cast<float>(crop[0]) && raster->x < static_cast<float>(crop[1]) &&
-            raster->y >= static_cast<float>(crop[2]) && raster->y < static_cast<float>(crop[3]))
+        if (raster && raster->x >= 0.0f && raster->x < size.x && raster->y >= 0.0f && raster->y < size.y)
             in_view.push_back(p);
     }
     return in_view.size() >= 32 ? in_view : all;

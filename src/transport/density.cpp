@@ -18,7 +18,8 @@ constexpr float kLeastSquare = 1e-37f;  // of a radius whose square has an inver
 struct Place {
     Vec3 p, n;
     bool both_sides = false;
-    std::uint32_t own = kNoPhoton;
+    std::uint32_t thinned =
+        0;  // every so-manieth photon of the map does not count, and the others stand for it
 };
 
 /// What the photons that count amount to, and where they lie.
@@ -39,8 +40,9 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
         if (!(sqr(g.radius) >= kLeastSquare)) return;
         float inverse = 1.0f / sqr(g.radius);
         auto const count = [&](std::uint32_t i, float d2) {
-            if (i == at.own) return;
+            if (at.thinned > 0 && i % at.thinned == 0) return;
             Photon const& photon = map[i];
+            if (rule.only_caustics && !photon.caustic()) return;
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
             if (off_plane > kPlate * g.radius) return;
@@ -56,7 +58,8 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             map.within(at.p, g.radius, count);
             return;
         }
-        std::uint32_t const k = rule.k + (at.own == kNoPhoton ? 0 : 1);
+        // As many count as without thinning; one of those that do not lies at the place itself.
+        std::uint32_t const k = at.thinned > 0 ? rule.k + rule.k / (at.thinned - 1) + 1 : rule.k;
         map.nearest(at.p, k, rule.radius, nearest);
         float farthest = rule.radius * rule.radius;
         if (nearest.found.size() == k) {
@@ -73,16 +76,6 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
     };
     with_kernel(rule.kernel, sum);
     return g;
-}
-
-/// What the photon counts because of which a place was chosen. It does not tell how many others there are; but who asks for the nearest
-/// place meets one that has no other near on his side. Of m photons a place, a disk of m photons' area (on average, and exponentially
-/// distributed) about him is empty of places, and so short of one photon. The own one makes up for it as if it lay where that one would
-/// be: the mean of d^2 / r^2 over the disk, weighed by its area, is 3 m / k, k being the photons within r.
-float own_weight(EstimateRule const& rule, Gathered const& g, float photons_a_place) {
-    if (g.photons == 0) return 0.0f;
-    float const x2 = 3.0f * photons_a_place / static_cast<float>(g.photons);
-    return x2 < 1.0f ? with_kernel(rule.kernel, [&](auto const& k) { return k(x2); }) / sqr(g.radius) : 0.0f;
 }
 
 /// Something is missing on one side: the photons' centroid is farther out than 1.5 standard deviations of that of an even disk, whose
@@ -151,8 +144,7 @@ Coverage coverage(World const& world, Vec3 p, Vec3 n, float radius, Kernel kerne
 Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap const& map,
                    EstimateRule const& rule, std::uint32_t most_bounces) {
     Estimate e;
-    Place const at{v.hit.s.p, dot(walk.ray.d, v.hit.s.ng) < 0.0f ? v.hit.s.ng : -v.hit.s.ng,
-                   v.is.spreads_through};
+    Place const at{v.hit.s.p, facing_normal(walk, v), v.is.spreads_through};
     bool const same_normals = v.hit.s.ns == v.hit.s.ng;
     auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf);
     Gathered const g = for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, float weight) {
@@ -186,15 +178,14 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
 }
 
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
-                    NearestPhotons& nearest, RayStats& stats, OwnPhoton const& own) {
+                    NearestPhotons& nearest, RayStats& stats, std::uint32_t thinned) {
     Estimate e;
-    Place const at{p, n, false, own.index};
+    Place const at{p, n, false, thinned};
     Gathered const g = for_each_photon(map, at, rule, nearest, [&](Photon const& photon, float weight) {
         e.radiance += photon.power() * weight;
         return true;
     });
-    if (own.index != kNoPhoton)
-        e.radiance += map[own.index].power() * own_weight(rule, g, own.photons_a_place);
+    if (thinned > 0) e.radiance *= static_cast<float>(thinned) / static_cast<float>(thinned - 1);
     e.radiance *= edge_factor(world, at, rule, g, stats);
     e.radius = g.radius;
     e.photons = g.photons;

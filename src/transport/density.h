@@ -18,7 +18,8 @@
 
 namespace nephroid {
 
-inline constexpr std::uint32_t kNoPhoton = ~0u;
+/// For most_bounces: what maps hold was cut when it was shot.
+inline constexpr std::uint32_t kAnyLength = ~0u;
 
 /// How a map is asked.
 struct EstimateRule {
@@ -28,6 +29,7 @@ struct EstimateRule {
     float radius = 0;  // at most; scene units
     float shrink = 1;  // of the radius that the k-th gives: how passes after the first look closer
     bool edge_correction = false;
+    bool only_caustics = false;  // of a map that holds others as well
 };
 struct Estimate {
     Spectrum radiance;          // towards v.wo
@@ -48,16 +50,12 @@ inline void record_estimates(Estimate const& caustic, Estimate const& global, Ao
 Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap const& map,
                    EstimateRule const& rule, std::uint32_t most_bounces);
 
-/// The photon of the map because of which irradiance is asked for at its place, one of so many photons.
-struct OwnPhoton {
-    std::uint32_t index = kNoPhoton;
-    float photons_a_place = 1;
-};
 /// Irradiance on the side of n at p, from photons that landed on that side: `radiance` is W/m^2 (per nm) here. Those in the hero lane
-/// alone count for all lanes. `own`: the values are right on average for who looks up the nearest place. Counted like the others that
-/// photon makes estimates by 50 a few percent too bright, not counted at all 3% too dark.
+/// alone count for all lanes. `thinned` > 1: photons 0, thinned, 2 thinned … of the map do not count, and the others stand for them. That
+/// is for places that were chosen from the photons: a place tells that a photon lies there, and to be the nearest place of somebody that
+/// few others do; with them in it, an estimate by 50 photons is some percent too bright or too dark. Those that are no places know nothing.
 Estimate irradiance(World const& world, PhotonMap const& map, Vec3 p, Vec3 n, EstimateRule const& rule,
-                    NearestPhotons& nearest, RayStats& stats, OwnPhoton const& own = {});
+                    NearestPhotons& nearest, RayStats& stats, std::uint32_t thinned = 0);
 
 /// How much of the disk about p is surface with a normal like n that p sees: found by probing it with rays (64 places; 8 along the rim
 /// tell whether the others are needed).

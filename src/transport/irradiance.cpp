@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::size_t kEvery = 4;    // Christensen's choice
+constexpr std::uint32_t kEvery = 4;  // Christensen's choice
 constexpr std::size_t kChunk = 256;  // places; what chunks return is added in their order
 constexpr float kSameNormal = 0.7f;
 
@@ -34,8 +34,8 @@ IrradianceMap::IrradianceMap(World const& world, PhotonMap const& map, EstimateR
             PhotonRecord place;
             place.p = photon.p();
             place.n = photon.n();
-            Estimate const e = irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays,
-                                          {static_cast<std::uint32_t>(i * kEvery), kEvery});
+            Estimate const e =
+                irradiance(world, map, place.p, place.n, rule, nearest, chunks[chunk].rays, kEvery);
             place.power = e.radiance;
             chunks[chunk].radii += static_cast<double>(e.radius);
             places[i] = Photon(place);

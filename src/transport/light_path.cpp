@@ -34,7 +34,7 @@ class LightPathPen {
     }
 
     void draw(std::uint64_t path, SplatChunk& splats, RayStats& stats) const {
-        PathSampler sampler(job_.sequence(), stream::kLightPaths, 0, pass_ * paths_ + path);
+        PathSampler sampler(job_.light_sequence(), stream::kLightPaths, 0, pass_ * paths_ + path);
         sampler.at(dimension::kPathWavelength);
         Wavelengths const lambda = job_.settings().color == ColorMode::Rgb
                                        ? Wavelengths::rgb()

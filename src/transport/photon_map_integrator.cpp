@@ -16,20 +16,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::uint32_t kAnyLength = ~0u;  // what maps hold was cut when it was shot
-
-/// Light from the maps at the end of a gather ray. Irradiance says what a diffuse surface does with it; others are asked by direction.
-Spectrum from_global_map(PathContext& c, Walk const& walk, Vertex const& v) {
-    PhotonMaps const& maps = *c.photons;
-    // Precomputed irradiance does not know which of it is the hero's alone.
-    if (auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf); diffuse && !walk.hero_only) {
-        Vec3 const n = dot(walk.ray.d, v.hit.s.ng) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
-        return diffuse->reflectance * maps.irradiance.at(v.hit.s.p, n, *c.nearest) *
-               kInvPi;  // L = rho E / pi
-    }
-    return reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength).radiance;
-}
-
 /// L ... D D: what a gather ray, which has just left the first D, brings.
 void gather(PhotonMapIntegrator const& p, PathContext& c, Walk walk, SeenLight& seen) {
     PhotonMaps const& maps = *c.photons;
@@ -42,22 +28,22 @@ void gather(PhotonMapIntegrator const& p, PathContext& c, Walk walk, SeenLight& 
         Spectrum& found = straight ? seen[walk.path_class.ends_on_light()] : unseen;
         float const before = walk.cone;
         if (!advance(c, walk, straight ? EmissionWeight::Mis : EmissionWeight::None, v, found)) return;
-        if (!prepare(c, walk, v) || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) return;
+        if (!prepare(c, walk, v)) return;
+        bool const last = walk.vertex >= static_cast<std::uint32_t>(p.max_depth);
         since_diffuse += walk.cone - before + v.hit.t;
         if (!v.is.near_specular) {
-            if (since_diffuse > maps.shortest_gather) {
+            if (last || since_diffuse > maps.shortest_gather) {
                 seen[LightClass::Indirect] += walk.beta * from_global_map(c, walk, v);
                 // The global map leaves out what a delta part of this surface shows.
-                if (std::holds_alternative<DiffuseBsdf>(v.bsdf) || !scatter(c, walk, v) ||
+                if (last || std::holds_alternative<DiffuseBsdf>(v.bsdf) || !scatter(c, walk, v) ||
                     !walk.path_class.specular_since())
                     return;
                 continue;
             }
-            seen[LightClass::Indirect] +=
-                walk.beta * (sample_direct(c, walk, v, true) +
-                             reflected(c, walk, v, maps.caustic, maps.caustic_rule, kAnyLength).radiance);
+            seen[LightClass::Indirect] += walk.beta * (sample_direct(c, walk, v, true) +
+                                                       from_caustics(c, walk, v, kAnyLength).radiance);
         }
-        if (!scatter(c, walk, v) || !survives(c, walk, {})) return;
+        if (last || !scatter(c, walk, v) || !survives(c, walk, {})) return;
         if (!walk.path_class.specular_since()) since_diffuse = 0;
     }
 }
@@ -66,19 +52,20 @@ void gather(PhotonMapIntegrator const& p, PathContext& c, Walk walk, SeenLight& 
 void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t gather_rays, AovSample* aov,
           SeenLight& seen) {
     PhotonMaps const& maps = *c.photons;
+    auto const most = static_cast<std::uint32_t>(p.max_depth);  // mirrors and glass in a row
     Vertex v;
     for (;;) {
         if (!advance(c, walk, EmissionWeight::Mis, v, seen[walk.path_class.ends_on_light()])) return;
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
-        if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) return;
+        if (!scatters) return;
         if (!v.is.delta)
             seen[walk.path_class.ends_after(v.is.near_specular)] +=
                 walk.beta * sample_direct(c, walk, v, true);
         if (!v.is.near_specular) break;
-        if (!scatter(c, walk, v)) return;
+        if (walk.vertex >= most || !scatter(c, walk, v)) return;
     }
-    Estimate const caustic = reflected(c, walk, v, maps.caustic, maps.caustic_rule, kAnyLength);
+    Estimate const caustic = from_caustics(c, walk, v, kAnyLength);
     seen[LightClass::Caustic] += walk.beta * caustic.radiance;
     Estimate global;
     if (!p.final_gather) {
@@ -96,6 +83,7 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
             c.tainted = c.tainted || branch.tainted;
             continue;
         }
+        if (next.path_class.all_specular() && next.vertex > most) continue;
         if (next.path_class.all_specular())
             look(p, branch, next, 1, nullptr, brought);
         else if (p.final_gather)

@@ -8,10 +8,17 @@ namespace nephroid {
 
 struct PhotonMaps {
     PhotonMap global, caustic;
-    IrradianceMap irradiance;  // of the global map; where the integrator gathers
+    bool caustics_in_global = false;  // none were shot by themselves
+    IrradianceMap irradiance;         // of the global map; where the integrator gathers
     EstimateRule global_rule, caustic_rule;
     float shortest_gather =
         0;  // a gather ray that is no longer goes on as a path: about as far as photons are spread
 };
+
+/// What v reflects of all light, by the global map. Irradiance that was precomputed says what a diffuse surface does with it; others are
+/// asked by direction.
+Spectrum from_global_map(PathContext& c, Walk const& walk, Vertex const& v);
+/// What v reflects of caustics, from whichever map has them.
+Estimate from_caustics(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t most_bounces);
 
 }  // namespace nephroid

@@ -68,10 +68,12 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
       camera_(camera_of(world, settings)),
       filter_(settings.filter),
       sequence_(sequence_of(settings)),
+      light_sequence_(sequence_),
       // pbrt-v4: exposure time * ISO / 100, so that the defaults leave radiance as it is.
       sensor_(world.scene().camera.exposure_time * settings.film.iso / 100.0f,
               settings.film.white_balance > 0 ? std::optional<float>(settings.film.white_balance)
                                               : std::nullopt) {
+    light_sequence_.jitter = true;
     Vec2i const r = settings.film.resolution;
     crop_ = settings.film.crop.value_or(std::array<int, 4>{0, r.x, 0, r.y});
     crop_ = {std::max(0, crop_[0]), std::min(r.x, crop_[1]), std::max(0, crop_[2]), std::min(r.y, crop_[3])};

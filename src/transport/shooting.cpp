@@ -86,7 +86,7 @@ PhotonRecord photon_of(PathContext const& c, Walk const& walk, Vertex const& v, 
     PhotonRecord r;
     r.p = v.hit.s.p;
     r.wi = -walk.ray.d;
-    r.n = dot(v.hit.s.ng, walk.ray.d) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
+    r.n = facing_normal(walk, v);
     r.power = walk.beta / share_kept(c, v);
     r.bounces = walk.vertex;
     r.light = light;
@@ -101,7 +101,7 @@ template <class Visit>
 End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
     std::uint64_t const which =
         s.kind == ShotKind::Caustic ? stream::kCausticPhotons : stream::kGlobalPhotons;
-    PathSampler sampler(s.job.sequence(), which, 0, s.first + i);
+    PathSampler sampler(s.job.light_sequence(), which, 0, s.first + i);
     PathContext c{s.job, s.job.world(), s.lambda, sampler, stats};
     auto start = emit(c, s.aim, s.paths, &light);
     if (!start) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark;

@@ -23,7 +23,7 @@ SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovS
                 walk.beta * sample_direct(c, walk, v, true);
         if (!v.is.near_specular) {
             PhotonMaps const& maps = *c.photons;
-            Estimate const caustic = reflected(c, walk, v, maps.caustic, maps.caustic_rule, most);
+            Estimate const caustic = from_caustics(c, walk, v, most);
             Estimate const global = reflected(c, walk, v, maps.global, maps.global_rule, most);
             seen[LightClass::Caustic] += walk.beta * caustic.radiance;
             seen[LightClass::Indirect] += walk.beta * global.radiance;

@@ -107,6 +107,11 @@ inline Receiver receiver_of(Vertex const& v) {
     return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, v.is.spreads_through};
 }
 
+/// The geometric normal on the side that the ray came from.
+inline Vec3 facing_normal(Walk const& walk, Vertex const& v) {
+    return dot(walk.ray.d, v.hit.s.ng) < 0.0f ? v.hit.s.ng : -v.hit.s.ng;
+}
+
 /// How emission that a ray runs into is weighed against light sampling at the ray's origin.
 enum class EmissionWeight : std::uint8_t {
     Mis,          // power heuristic

@@ -42,7 +42,7 @@ TEST_CASE("photonmap has pbrt-v2's names") {
     CHECK(photon_map("\"float radius\" 2").estimates.radius == 2);
     CHECK(photon_map("\"integer maxdepth\" 3").max_depth == 3);
     CHECK(photon_map("\"integer indirectphotons\" 0").shooting.global_paths == 0);
-    CHECK(photon_map("\"integer nused\" 1").estimates.nused == 1);
+    CHECK(photon_map("\"integer nused\" 2").estimates.nused == 2);
     auto const scene = read("\nIntegrator \"photonmap\" \"float gatherangle\" 10 WorldBegin");
     CHECK(notes(scene) ==
           "t.pbrt:2: Integrator \"photonmap\": \"gatherangle\" changes nothing: gather rays follow the "
@@ -187,6 +187,7 @@ TEST_CASE("what no file can say is refused as well") {
     s.shooting.caustic_paths = -2, refused(s, "photon paths must not be negative"), s = {};
     s.shooting.max_depth = -1, refused(s, "maxphotondepth"), s = {};
     s.estimates.nused = -1, refused(s, "nused"), s = {};
+    s.estimates.nused = 1, refused(s, "at least 2"), s = {};
     s.estimates.nused = 1 << 30, refused(s, "2^24 photons"), s = {};
     s.estimates.radius = -1, refused(s, "radius"), s = {};
     s.estimates.caustic_radius = nan, refused(s, "not finite"), s = {};

@@ -41,8 +41,8 @@ class Probe {
         return nephroid::reflected(c, walk, v, map, how, most_bounces);
     }
     Estimate irradiance(PhotonMap const& map, EstimateRule const& how, Vec3 p, Vec3 n,
-                        OwnPhoton const& own = {}) {
-        return nephroid::irradiance(job_.world(), map, p, n, how, nearest_, stats_, own);
+                        std::uint32_t thinned = 0) {
+        return nephroid::irradiance(job_.world(), map, p, n, how, nearest_, stats_, thinned);
     }
     [[nodiscard]] std::uint64_t rays() const { return stats_.rays[0] + stats_.rays[1] + stats_.rays[2]; }
 

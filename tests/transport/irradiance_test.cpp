@@ -73,10 +73,7 @@ TEST_CASE(
             }
             Spectrum const there = best == map.size()
                                        ? Spectrum{}
-                                       : probe
-                                             .irradiance(map, how, map[best].p(), map[best].n(),
-                                                         {static_cast<std::uint32_t>(best), 4})
-                                             .radiance;
+                                       : probe.irradiance(map, how, map[best].p(), map[best].n(), 4).radiance;
             if (!same(places.at(at.p, at.n, nearest), there)) ++wrong;
         }
         CHECK(wrong == 0);

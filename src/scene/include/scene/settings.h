@@ -1,5 +1,6 @@
 // How a scene is to be rendered: what a file asks for and the command line overrides. A pass is a pure function of
-// (world, settings, seed, i); everything in Settings except `spp`, `film.filename` and the places shapes the pass.
+// (world, settings, seed, i); everything in Settings shapes the pass except `film.filename`, the places, and `spp`, of which
+// samples_per_pass() alone does.
 #pragma once
 
 #include "math/vec.h"

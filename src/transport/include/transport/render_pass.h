@@ -30,6 +30,8 @@ class RenderJob {
     [[nodiscard]] PreparedCamera const& camera() const { return camera_; }
     [[nodiscard]] FilterSampler const& filter() const { return filter_; }
     [[nodiscard]] Sequence const& sequence() const { return sequence_; }
+    /// Of light paths: centres of strata would send them all to a few places.
+    [[nodiscard]] Sequence const& light_sequence() const { return light_sequence_; }
     [[nodiscard]] Sensor const& sensor() const { return sensor_; }
     /// The bodies that the camera is in.
     [[nodiscard]] Interiors const& camera_interiors() const { return interiors_; }
@@ -51,7 +53,7 @@ class RenderJob {
     Settings settings_;
     PreparedCamera camera_;
     FilterSampler filter_;
-    Sequence sequence_;
+    Sequence sequence_, light_sequence_;
     Sensor sensor_;
     std::array<int, 4> crop_{};
     Interiors interiors_;
