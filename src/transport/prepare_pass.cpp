@@ -76,7 +76,8 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
                 !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, maps->caustic_rule, control,
                           maps->caustic, work->report))
                 return false;
-            if (kind == ShotKind::Global && plan->caustic_paths == 0 && plan->aim.casts()) {
+            if (global_shot(job.settings().integrator) == ShotKind::Global && plan->caustic_paths == 0 &&
+                plan->aim.casts()) {
                 maps->caustics_in_global = true;
                 maps->caustic_rule = maps->global_rule;
                 maps->caustic_rule.only_caustics = true;
