@@ -50,6 +50,17 @@ run 0 info scene.pbrt
 prints "estimate"
 run 0 info scene.pbrt --json
 prints '"estimated_bytes"'
+# Progressive passes leave nothing behind: the most memory of 20 passes and of 400 is the same, to a few MB.
+if [[ -z ${NEPHROID_SLOW:-} && -x /usr/bin/time ]]; then
+    peak() { # PASSES: in KiB
+        /usr/bin/time -f %M -o peak "$program" render scene.pbrt --integrator sppm --set photonsperiteration=2000 --spp "$1" --size 16x12 --threads 1 --quiet -o a.exr >out 2>err || fail "sppm with $1 passes"
+        tail -1 peak
+    }
+    few=$(peak 20) many=$(peak 400)
+    echo "peak memory: $few KiB after 20 passes, $many KiB after 400"
+    ((many < few + 4096 && few < many + 4096)) || fail "20 passes take $few KiB, 400 take $many KiB"
+    rm -f peak a.exr
+fi
 absent a.exr
 rm bomb.pbrt fine.pbrt named.exr
 only scene.pbrt

@@ -84,10 +84,24 @@ Scene room(double k) {
     return s;
 }
 
+/// Radii are automatic.
+PhotonMapIntegrator gathering() {
+    PhotonMapIntegrator p;
+    p.shooting.global_paths = 2000;
+    p.gather_samples = 2;
+    return p;
+}
+SppmIntegrator progressive() {
+    SppmIntegrator p;
+    p.shooting.global_paths = 2000;
+    return p;
+}
+
 Film render(double k, ColorMode color, Integrator const& integrator) {
     Scene s = room(k);
     s.settings.color = color;
     s.settings.integrator = integrator;
+    s.settings.spp = 1;
     World const world = compile(std::move(s));
     RenderJob const job(world, world.scene().settings);
     Film film = job.make_film();
@@ -102,7 +116,7 @@ Film render(double k, ColorMode color, Integrator const& integrator) {
 
 TEST_CASE("a scene scaled by a power of two gives the same bits") {
     std::vector<Integrator> const integrators{PathIntegrator{.max_depth = 8}, DirectIntegrator{},
-                                              WhittedIntegrator{}};
+                                              WhittedIntegrator{}, gathering(), progressive()};
     for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral})
         for (std::size_t i = 0; i < integrators.size(); ++i) {
             Film const one = render(1, color, integrators[i]);
