@@ -188,8 +188,8 @@ void check_classes(World const& world, Settings s, std::uint64_t passes, std::ve
                 CHECK_MESSAGE(p >= 1e-4, how.name, ", ", kClassNames[k], ", channel ", c, ": ", a.mean(),
                               " +- ", a.standard_error(), ", path tracing ", b.mean(), " +- ",
                               b.standard_error());
-                CHECK_MESSAGE(error / beauty <= within, how.name, ", ", kClassNames[k], ": inconclusive, +- ",
-                              error / beauty);
+                CHECK_MESSAGE(error / beauty <= within * (kSanitizerShare > 1 ? 4 : 1), how.name, ", ",
+                              kClassNames[k], ": inconclusive, +- ", error / beauty);
             }
     }
 }
@@ -243,17 +243,15 @@ TEST_CASE("a point light and a sky: light tracing finds each class that the maps
 TEST_CASE("closed forms: a furnace, a point light in a sphere, an integrating sphere") {
     // L_e / (1 - R) = 2; rho I / (pi r^2 (1 - rho)) = 1; and rho Phi / (A (1 - rho)) of indirect irradiance, wherever the light is.
     int const n = samples(4000, 100000);
-    for (bool const gathers : {true, false, false}) {
-        static int which = 0;
-        bool const sppm = which++ == 2;
-        Integrator const integrator = sppm ? Integrator{progressive(20, n, 0.1f)}
-                                           : Integrator{photon_map(n, gathers, gathers ? 0 : 0.1f, 0)};
-        CAPTURE(which);
+    for (Integrator const& integrator :
+         {Integrator{photon_map(n, true, 0, 0)}, Integrator{photon_map(n, false, 0.1f, 0)},
+          Integrator{progressive(20, n, 0.1f)}}) {
+        CAPTURE(integrator.index());
         auto const means = [&](Scene s, Vec3 eye) {
             look_around(s, eye);
             World const world = compile(std::move(s));
             Settings how = settings(integrator, 12, 12);
-            how.spp = sppm ? 1 : 2;
+            how.spp = 2;
             return film_means(world, how, 2, 7);
         };
         double const room = 0.006 * (kSanitizerShare > 1 ? 4 : 1);
@@ -342,7 +340,7 @@ TEST_CASE("a prism's colours on a wall are those of light tracing") {
     World const world = compile(std::move(s));
     Settings how = settings(progressive(5, samples(200, 2000), 0.15f), 20, 2);
     how.color = ColorMode::Spectral;
-    auto const passes = static_cast<std::uint64_t>(64);
+    constexpr std::uint64_t passes = 64;
     auto const by_maps = measure_layers(world, how, passes, 1);
     LightPathIntegrator lights;
     lights.paths = samples(2000, 20000);
@@ -353,19 +351,19 @@ TEST_CASE("a prism's colours on a wall are those of light tracing") {
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t which : {0u, 1u}) {
             auto const& m = which == 0 ? by_maps : by_light;
-            double sum = 0, error = 0;
+            double sum = 0, moment = 0;
             for (std::size_t i = 0; i < m.size(); ++i) {
                 sum += m[i].light[1][c].mean();
-                error += m[i].light[1][c].mean() * static_cast<double>(i % 20);
+                moment += m[i].light[1][c].mean() * static_cast<double>(i % 20);
             }
             CHECK(sum > 0);
-            centre[c][which] = error / sum;
+            centre[c][which] = moment / sum;
         }
         double a = 0, b = 0;
         for (std::size_t i = 0; i < by_maps.size(); ++i)
             a += by_maps[i].light[1][c].mean(), b += by_light[i].light[1][c].mean();
         CHECK(a == doctest::Approx(b).epsilon(0.03 * (kSanitizerShare > 1 ? 3 : 1)));
-        CHECK(std::abs(centre[c][0] - centre[c][1]) < 0.1);
+        CHECK(std::abs(centre[c][0] - centre[c][1]) < 0.1 * kSanitizerShare);
         MESSAGE("channel ", c, ": column ", centre[c][0], " by maps, ", centre[c][1],
                 " by light tracing; power ", a / b);
     }
