@@ -99,7 +99,7 @@ struct How {
     Integrator integrator;
     int spp = 1;
     std::uint64_t passes = 1;
-    double room[kLightClasses] = {0.01, 0.02, 0.02, 0.01};  // for blur, as a share of the beauty
+    double room[kLightClasses] = {0.002, 0.005, 0.008, 0.002};  // for blur, as a share of the beauty
 };
 
 /// Each class equals that of the settings' integrator, over so many passes.
