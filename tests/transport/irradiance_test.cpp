@@ -112,7 +112,6 @@ TEST_CASE(
     };
     // Points find the places that have most room around them, where photons happen to be sparse; the places know (OwnPhoton).
     CHECK(mean(true, 0, 0.85f) == doctest::Approx(1).epsilon(0.006));
-    MESSAGE(mean(true, 0, 0.85f));
     CHECK(mean(true, 0, 1) ==
           doctest::Approx(1).epsilon(0.015));  // some of the edge's width passes for whole
     CHECK(mean(true, 0.98f, 1) == doctest::Approx(1).epsilon(0.04));
