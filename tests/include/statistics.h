@@ -22,13 +22,16 @@ inline bool full() { return std::getenv("NEPHROID_FULL") != nullptr; }
 /// Sanitizers look for faults of memory and arithmetic, not of chance, and take ten times as long.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr int kSanitizerShare = 5;
-inline constexpr double kSanitizerRoom = 3;  // for intervals, which grow with the root of that and by what luck there is
+inline constexpr double kSanitizerRoom =
+    3;  // for intervals, which grow with the root of that and by what luck there is
 #else
 inline constexpr int kSanitizerShare = 1;
 inline constexpr double kSanitizerRoom = 1;
 #endif
 /// The number of samples of a test: `quick` by default.
-inline int samples(int quick, int when_full) { return full() ? when_full : std::max(1, quick / kSanitizerShare); }
+inline int samples(int quick, int when_full) {
+    return full() ? when_full : std::max(1, quick / kSanitizerShare);
+}
 
 /// A stream of numbers of the tests' own, so that they do not lean on what they test (SplitMix64).
 class Random {

@@ -84,9 +84,7 @@ inline Scene read_text(std::string const& text) {
 }
 
 inline std::vector<Integrator> integrators() {
-    return {PathIntegrator{.max_depth = 6},
-            DirectIntegrator{},
-            WhittedIntegrator{.max_depth = 6},
+    return {PathIntegrator{.max_depth = 6}, DirectIntegrator{}, WhittedIntegrator{.max_depth = 6},
             // Radii are given: to find some takes longer than a pass of these.
             PhotonMapIntegrator{.shooting = {.global_paths = 300},
                                 .estimates = {.nused = 10, .radius = 0.5f, .edge_correction = true},
