@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "films.h"
+#include "photon_plan.h"
 
 #include <algorithm>
 #include <array>
@@ -139,7 +140,8 @@ TEST_CASE("path tracing, photon mapping, progressive photon mapping and light tr
         sppm.alpha = 1;
         Settings progressive = base;
         progressive.integrator = sppm;
-        float const radius = 0.012f * length(world.bounds().hi - world.bounds().lo) / 1.7f;
+        // A few photons a pass: radii that suit the scene, and are small beside what is seen of it.
+        float const radius = 0.2f * RenderJob(world, progressive).photon_plan()->global_radius;
         Tiles const extrapolated = batches([&](std::uint64_t b) {
             auto& i = std::get<SppmIntegrator>(progressive.integrator);
             i.estimates.radius = radius;
