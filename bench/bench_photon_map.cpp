@@ -4,6 +4,7 @@
 // All structures do the same queries in turn, so that they see the same machine; medians are reported. A query adds up squared
 // distances, nothing else, and the sums must agree.
 #include "math/bounds.h"
+#include "timing.h"
 #include "transport/photon_map.h"
 
 #include <CLI/CLI.hpp>
@@ -18,30 +19,14 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 #include <tbb/task_arena.h>
 
 namespace nephroid {
 
-namespace {
+using bench::median;
+using bench::seconds_of;
 
-/// Processor time of this thread, which is all that works here.
-double thread_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-template <class F>
-double seconds_of(F&& f) {
-    double const t0 = thread_seconds();
-    f();
-    return thread_seconds() - t0;
-}
-double median(std::vector<double> v) {
-    std::sort(v.begin(), v.end());
-    return v[v.size() / 2];
-}
+namespace {
 
 // --- places -----------------------------------------------------------------------------------------------------------------
 class Places {

@@ -6,6 +6,7 @@
 #include "photon_maps.h"
 #include "photon_plan.h"
 #include "scenes.h"
+#include "timing.h"
 #include "transport/shooting.h"
 #include "world/floor.h"
 
@@ -19,31 +20,18 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 namespace nephroid {
+
+using bench::median;
 
 namespace {
 
-double thread_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 /// In an arena of this thread alone, so that its processor time is all there is.
-double seconds_of(std::function<void()> const& f) {
+double seconds_alone(std::function<void()> const& f) {
     tbb::task_arena alone(1);
     double seconds = 0;
-    alone.execute([&] {
-        double const t0 = thread_seconds();
-        f();
-        seconds = thread_seconds() - t0;
-    });
+    alone.execute([&] { seconds = bench::seconds_of(f); });
     return seconds;
-}
-double median(std::vector<double> v) {
-    std::sort(v.begin(), v.end());
-    return v[v.size() / 2];
 }
 
 struct Options {
@@ -74,14 +62,14 @@ void print_shot(std::string const& scene, char const* map, RenderJob const& job,
     std::uint64_t stored = 0, found = 0, asked = 0;
     for (int i = 0; i < o.repetitions; ++i) {
         std::optional<Shot> shot;
-        shooting.push_back(seconds_of([&] { shot = shoot(job, kind, 0, paths, {}); }));
-        floor.push_back(seconds_of([&] { trace_only(job.world(), rays); }));
+        shooting.push_back(seconds_alone([&] { shot = shoot(job, kind, 0, paths, {}); }));
+        floor.push_back(seconds_alone([&] { trace_only(job.world(), rays); }));
         stored = shot->photons.size();
         PhotonMap photons;
-        building.push_back(seconds_of([&] { photons = PhotonMap(std::move(shot->photons), radius); }));
+        building.push_back(seconds_alone([&] { photons = PhotonMap(std::move(shot->photons), radius); }));
         // Asked at photons, as many as there are, in the order of the map, which is about that of tiles.
         found = asked = 0;
-        asking.push_back(seconds_of([&] {
+        asking.push_back(seconds_alone([&] {
             for (std::size_t k = 0; k < photons.size(); k += 1 + photons.size() / 100000, ++asked)
                 photons.within(photons[k].p(), radius, [&](std::uint32_t, float) { ++found; });
         }));

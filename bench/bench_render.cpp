@@ -6,6 +6,7 @@
 #include "film/film.h"
 #include "read/read.h"
 #include "scenes.h"
+#include "timing.h"
 #include "transport/render_pass.h"
 #include "world/floor.h"
 
@@ -19,29 +20,12 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 namespace nephroid {
 
+using bench::median;
+using bench::seconds_of;
+
 namespace {
-
-/// Processor time of this thread, which is all that works here: what else the machine does costs it no time, only caches.
-double thread_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-double seconds_of(std::function<void()> const& f) {
-    double const t0 = thread_seconds();
-    f();
-    return thread_seconds() - t0;
-}
-
-double median(std::vector<double> v) {
-    std::sort(v.begin(), v.end());
-    std::size_t const n = v.size();
-    return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
-}
 
 struct Options {
     int repetitions = 7;

@@ -3,6 +3,7 @@
 #include "estimates.h"
 #include "kernel.h"
 #include "photon_plan.h"
+#include "tilted_floor.h"
 #include "transport/shooting.h"
 
 using namespace nephroid;
@@ -566,16 +567,7 @@ TEST_CASE("progressive: the squared error falls by the number of passes to the p
 }
 
 TEST_CASE("photons on a floor whose normals are tilted by 30 degrees: rho E cos 30 / pi") {
-    Scene s;
-    TriangleMesh floor = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
-    floor.n.assign(4, Vec3{0.5f, 0, std::sqrt(0.75f)});
-    add(s, floor, diffuse(s, 0.6f));
-    DistantLight d;
-    d.from = {0, 0, 1};
-    d.to = {0, 0, 0};
-    s.add(Light{d, {}, {}});
-    look_parallel(s, {0, 0, 2}, {0, 0, -1}, 0.5f);
-    World const w = compile(std::move(s));
+    World const w = compile(tilted_floor_lit_from_above());
     for (Kernel const kernel : kKernels)
         check_mean(w, settings(shown(kernel, 0.2f, 4000)), 4, 0.6 * std::cos(kPiD / 6) / kPiD);
 }

@@ -1,6 +1,7 @@
 // Light tracing: power sent out by the lights and seen by the camera is what the camera finds by looking for it.
 #include "layers.h"
 #include "scenes.h"
+#include "tilted_floor.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -182,9 +183,7 @@ TEST_CASE("a box of many surfaces, seen by path tracing and by light tracing, cl
 
 TEST_CASE("lights of all kinds, alpha, shading normals and interfaces") {
     Scene s;
-    TriangleMesh floor = rectangle({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
-    floor.n.assign(4, Vec3{0.5f, 0, std::sqrt(0.75f)});
-    add(s, floor, diffuse(s, Vec3{0.8f, 0.6f, 0.4f}));
+    add(s, tilted_floor(1), diffuse(s, Vec3{0.8f, 0.6f, 0.4f}));
     // Half there, and half in places.
     CheckerboardTexture checks;
     checks.mapping = UvMapping{4, 4, 0, 0};

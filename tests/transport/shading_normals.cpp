@@ -2,30 +2,17 @@
 #include "measure.h"
 #include "model/material.h"
 #include "scenes.h"
+#include "tilted_floor.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
 constexpr double kPiD = 3.14159265358979323846;
-
-/// A floor whose shading normal is tilted by 30 degrees towards +x.
-Shape tilted_floor(float half) {
-    TriangleMesh m = rectangle({-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0});
-    m.n.assign(4, Vec3{0.5f, 0, std::sqrt(0.75f)});
-    return m;
-}
 }  // namespace
 
 TEST_CASE("light from above on a normal tilted by 30 degrees: rho E cos 30 / pi") {
-    Scene s;
-    add(s, tilted_floor(1), diffuse(s, 0.6f));
-    DistantLight d;
-    d.from = {0, 0, 1};
-    d.to = {0, 0, 0};
-    s.add(Light{d, {}, {}});
-    look_parallel(s, {0, 0, 2}, {0, 0, -1}, 0.5f);
-    World const w = compile(std::move(s));
+    World const w = compile(tilted_floor_lit_from_above());
     Settings const how = settings(path(1));
     // E of a distant light of radiance-like scale 1: 1 on a facing surface.
     check_mean(w, how, 16, 0.6 * std::cos(kPiD / 6) / kPiD);
