@@ -14,19 +14,20 @@ declare -A sees flags may
 source "$facts"
 
 # Ground floor first. A room sees what it names, and through that what those rooms show in their own headers.
-order=(math spectrum sampling image scene read model world film transport render apps)
+order=(math spectrum sampling image scene read write model world film transport render apps)
 may[math]=""
 may[spectrum]="math"
 may[sampling]="spectrum math"
 may[image]="math"
 may[scene]="sampling spectrum math"
 may[read]="scene sampling spectrum math"
+may[write]="scene image sampling spectrum math"
 may[model]="scene image sampling spectrum math"
 may[world]="model scene image sampling spectrum math"
 may[film]="image math"
 may[transport]="world film model scene sampling spectrum math"
 may[render]="transport world film scene math"
-may[apps]="render transport world film model scene read image sampling spectrum math"
+may[apps]="render transport world film model scene read write image sampling spectrum math"
 
 bad=0
 fail() {

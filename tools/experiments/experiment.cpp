@@ -17,17 +17,22 @@ void write_page(Experiment const& experiment, std::filesystem::path const& folde
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     Page page(folder, experiment.name, experiment.title);
-    Lab const lab{
-        page, quick,
-        std::filesystem::temp_directory_path() / ("nephroid-experiment-" + std::to_string(getpid()))};
+    Lab lab{page, quick,
+            std::filesystem::temp_directory_path() / ("nephroid-experiment-" + std::to_string(getpid()))};
+    bool const gallery = experiment.gallery > 0;
+    if (gallery) lab.full = folder / "full", lab.enlarge = experiment.gallery;
+    std::filesystem::remove_all(folder / "full");
     std::filesystem::create_directories(lab.scratch);
     if (quick) page.text("**A quick run: the numbers show that the program works, and nothing else.**");
     experiment.introduction(page);
     for (Section const& s : experiment.sections) {
-        std::fprintf(stderr, "%5.1f s  %s\n", seconds(), s.name);
+        double const begin = seconds();
+        std::fprintf(stderr, "%5.1f s  %s\n", begin, s.title);
+        page.section(s.title);
         s.run(lab);
+        if (gallery && !quick) page.text("Made in " + number(seconds() - begin) + " s.");
     }
-    page.write();
+    page.write(gallery);
     std::filesystem::remove_all(lab.scratch);
     std::fprintf(stderr, "%5.1f s  done: %s.md\n", seconds(), (folder / experiment.name).c_str());
 }

@@ -8,7 +8,7 @@
 namespace nephroid::experiment {
 
 struct Section {
-    char const* name;
+    char const* title;
     void (*run)(Lab const&);
 };
 
@@ -17,6 +17,9 @@ struct Experiment {
     char const* title;
     void (*introduction)(Page&);
     std::span<Section const> sections;
+    /// A gallery: an HTML page too, each section with its time, pictures so many times as large as they are shown, kept in full
+    /// size in FOLDER/full.
+    int gallery = 0;
 };
 
 /// Exit code: 2 for wrong arguments, 1 for what failed, which stderr then says, as it says what is being done. A run with

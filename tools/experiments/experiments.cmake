@@ -1,4 +1,5 @@
-# The programs that make the pages of docs/experiments (./dev experiment NAME): one a folder, over what they share.
+# The programs that make the pages of docs/experiments (./dev experiment NAME) and docs/report (./dev report): one a folder, over
+# what they share.
 add_library(experiments STATIC EXCLUDE_FROM_ALL)
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/experiments/*.cpp)
 target_sources(experiments PRIVATE ${sources})
@@ -11,11 +12,17 @@ function(experiment name)
   add_executable(experiment_${name} EXCLUDE_FROM_ALL ${sources})
   target_link_libraries(experiment_${name} PRIVATE experiments)
 endfunction()
+# Figures of the report that more than one page shows. Photons are drawn as `nephroid render --show-photons` draws them.
+file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/experiments/figures/*.cpp)
+add_library(figures STATIC EXCLUDE_FROM_ALL ${sources})
+target_link_libraries(figures PUBLIC experiments PRIVATE apps)
+target_include_directories(figures PUBLIC ${PROJECT_SOURCE_DIR}/tools/experiments/figures PRIVATE ${PROJECT_SOURCE_DIR}/src)
+
 experiment(direct_lighting)
 experiment(surfaces)
 experiment(photon_mapping)
+experiment(report)
 # Measured materials are made by the recipe of the tests of that model.
 target_include_directories(experiment_surfaces PRIVATE ${PROJECT_SOURCE_DIR}/tests/model ${PROJECT_SOURCE_DIR}/tests/include)
-# Photons are drawn as `nephroid render --show-photons` draws them.
-target_link_libraries(experiment_photon_mapping PRIVATE apps)
-target_include_directories(experiment_photon_mapping PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(experiment_photon_mapping PRIVATE figures)
+target_link_libraries(experiment_report PRIVATE figures)

@@ -95,6 +95,16 @@ Picture render_picture(Setup const& setup, std::string const& directives, std::u
     return picture(render_film(setup, directives, passes, seed));
 }
 
+Image image_of(Picture const& p) {
+    Image image(PixelFormat::Float, p.width, p.height, default_channel_names(3));
+    std::size_t i = 0;
+    for (int y = 0; y < p.height; ++y)
+        for (int x = 0; x < p.width; ++x, ++i)
+            for (int c = 0; c < 3; ++c)
+                image.set(x, y, c, static_cast<float>(p.rgb[i][static_cast<std::size_t>(c)]));
+    return image;
+}
+
 double mean(Picture const& p) {
     double sum = 0;
     for (auto const& c : p.rgb) sum += c[0] + c[1] + c[2];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "image/image.h"
 #include "scene/settings.h"
 #include "world/world.h"
 
@@ -35,6 +36,7 @@ struct Picture {
     std::vector<std::array<double, 3>> rgb;
 };
 Picture picture(Film const& film);
+Image image_of(Picture const& p);
 
 /// Passes [0, passes) under this seed. Throws std::runtime_error when samples or rays were not numbers.
 Film render_film(Setup const& setup, std::string const& directives, std::uint64_t passes, std::uint64_t seed);

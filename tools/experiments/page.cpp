@@ -1,5 +1,7 @@
 #include "page.h"
 
+#include "html.h"
+
 #include "image/file.h"
 
 #include <fmt/format.h>
@@ -84,6 +86,10 @@ void Page::image(std::string const& name, std::string const& alt) {
 }
 std::filesystem::path Page::file(std::string const& name) const { return folder_ / name_ / name; }
 void Page::save(std::string const& name, std::string const& text) const { write_text(file(name), text); }
-void Page::write() const { write_text(folder_ / (name_ + ".md"), text_); }
+void Page::for_browsers(std::string const& paragraph) { text_ += "\n<!-- " + paragraph + " -->\n"; }
+void Page::write(bool html) const {
+    write_text(folder_ / (name_ + ".md"), text_);
+    if (html) write_text(folder_ / (name_ + ".html"), html_of(text_));
+}
 
 }  // namespace nephroid::experiment

@@ -29,13 +29,15 @@ class Page {
     /// pbrt text, as it was run.
     void code(std::string const& text);
     void table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows);
+    /// A paragraph that only the HTML page has, as Markdown.
+    void for_browsers(std::string const& paragraph);
     /// A picture that is, or will be, at file(name).
     void image(std::string const& name, std::string const& alt);
     [[nodiscard]] std::filesystem::path file(std::string const& name) const;
     void save(std::string const& name, std::string const& text) const;
 
-    /// Throws Error(Io).
-    void write() const;
+    /// As Markdown, and as HTML beside it if asked for. Throws Error(Io).
+    void write(bool html = false) const;
 
   private:
     std::filesystem::path folder_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -77,6 +78,26 @@ std::vector<std::string> words(std::string const& label) {
     return w;
 }
 
+/// Letters and digits, and a dash for each run of anything else.
+std::string file_name(std::string const& label) {
+    std::string name;
+    for (char const c : label) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            name += c;
+        else if (!name.empty() && name.back() != '-')
+            name += '-';
+    }
+    while (name.ends_with('-')) name.pop_back();
+    return name;
+}
+
+void save_full(std::filesystem::path const& stem, Picture p, double exposure) {
+    write_exr(stem.string() + ".exr", image_of(p));
+    for (auto& color : p.rgb)
+        for (double& v : color) v *= exposure;
+    write_png(stem.string() + ".png", image_of(p));
+}
+
 }  // namespace
 
 void write_sheet(std::filesystem::path const& path, std::vector<std::string> const& columns,
@@ -107,6 +128,46 @@ void write_sheet(std::filesystem::path const& path, std::vector<std::string> con
         y += height + kGap;
     }
     write_png(path, image);
+}
+
+Picture reduced(Picture const& p, int by) {
+    Picture r{p.width / by, p.height / by, {}};
+    for (int y = 0; y < r.height; ++y)
+        for (int x = 0; x < r.width; ++x) {
+            std::array<double, 3> sum{};
+            for (int j = 0; j < by; ++j)
+                for (int i = 0; i < by; ++i)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum[c] += p.rgb[static_cast<std::size_t>((y * by + j) * p.width + x * by + i)][c];
+            for (double& s : sum) s /= by * by;
+            r.rgb.push_back(sum);
+        }
+    return r;
+}
+
+void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
+                std::vector<std::string> const& columns, std::vector<SheetRow> const& rows) {
+    std::vector<SheetRow> small = rows;
+    if (lab.enlarge > 1 && !lab.quick)
+        for (SheetRow& r : small)
+            for (Picture& p : r.pictures) p = reduced(p, lab.enlarge);
+    write_sheet(lab.page.file(name), columns, small);
+    lab.page.image(name, alt);
+    if (lab.full.empty()) return;
+    std::filesystem::create_directories(lab.full);
+    std::string const stem = std::filesystem::path(name).stem().string();
+    std::string links;
+    for (SheetRow const& r : rows)
+        for (std::size_t i = 0; i < r.pictures.size(); ++i) {
+            std::string const label =
+                (r.label.empty() ? "" : r.label + " ") + (i < columns.size() ? columns[i] : "");
+            std::string const file = stem + "-" + file_name(label.empty() ? std::to_string(i + 1) : label);
+            save_full(lab.full / file, r.pictures[i], r.exposure);
+            std::string const at = lab.full.filename().string() + "/" + file;
+            links += (links.empty() ? "Full size: " : ", ") + std::string("[") +
+                     (label.empty() ? "picture" : label) + "](" + at + ".png) ([EXR](" + at + ".exr))";
+        }
+    lab.page.for_browsers(links);
 }
 
 double exposure_for(Picture const& p, double share) {

@@ -51,10 +51,9 @@ void crops(Lab const& lab) {
     }
     row.pictures.push_back(reference.picture);
     columns.emplace_back("closed form");
-    write_sheet(lab.page.file("box-ways.png"), columns, {row});
-    lab.page.image(
-        "box-ways.png",
-        "The floor below the box, seen from above, at 4 samples, five ways; and Lambert's closed form");
+    show_sheet(lab, "box-ways.png",
+               "The floor below the box, seen from above, at 4 samples, five ways; and Lambert's closed form",
+               columns, {row});
     lab.page.table({"`shapesampling`", "error at 4 samples"}, errors);
 }
 
@@ -135,7 +134,6 @@ void bias(Lab const& lab) {
 
 void box_light(Lab const& lab) {
     Page& page = lab.page;
-    page.section("A box light, five ways");
     page.text(
         "A box of 1 × 1 × 0.8 and radiance 1 hangs 0.5 above a floor of reflectance 0.5, seen from above, "
         "from below the "

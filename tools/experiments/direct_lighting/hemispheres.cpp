@@ -25,7 +25,6 @@ double second_moment(SampleVariance const& v) { return v.relative + 1; }
 
 void hemispheres(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Uniform hemisphere or cosine");
     page.text("A diffuse floor under the open sky, light found by scattering alone:");
     page.code(direct("uniform|cosine"));
     int const n = lab.pixels(32);

@@ -44,7 +44,6 @@ std::vector<Emitter> emitters() {
 
 void light_shapes(Lab const& lab) {
     Page& page = lab.page;
-    page.section("The shapes of lights");
     page.text(
         "One light of each shape above 2 × 2 units of a floor, near (its lowest point at a height of 0.5) "
         "and far (at 8), "

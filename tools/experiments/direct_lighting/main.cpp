@@ -8,11 +8,15 @@ namespace {
 
 using namespace nephroid::experiment;
 
-constexpr Section kSections[] = {{"soft shadows", soft_shadows}, {"naive or direct", naive_or_direct},
-                                 {"box light", box_light},       {"strategies", strategies},
-                                 {"samplers", samplers},         {"light shapes", light_shapes},
-                                 {"many lights", many_lights},   {"picture light", picture_light},
-                                 {"hemispheres", hemispheres}};
+constexpr Section kSections[] = {{"Soft shadows", soft_shadows},
+                                 {"Naive, or asking the light", naive_or_direct},
+                                 {"A box light, five ways", box_light},
+                                 {"Strategies side by side", strategies},
+                                 {"Samplers", samplers},
+                                 {"The shapes of lights", light_shapes},
+                                 {"Many lights", many_lights},
+                                 {"A picture that shines", picture_light},
+                                 {"Uniform hemisphere or cosine", hemispheres}};
 
 void introduction(Page& page) {
     page.text(

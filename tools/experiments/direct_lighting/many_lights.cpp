@@ -34,7 +34,6 @@ Setup room(int width, int height, scenes::Pixels pixels) {
 
 void many_lights(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Many lights");
     page.text(
         fmt::format("{} emitting triangles hang in a room of 10 × 8 × 4 with a ball and a box; they look in "
                     "all directions, their sizes "
@@ -53,10 +52,9 @@ void many_lights(Lab const& lab) {
     row.pictures.push_back(render_picture(whole, direct("bvh", "zsobol"), lab.passes(256), 1));
     columns.emplace_back(lab.quick ? "8 samples" : "256 samples");
     row.exposure = exposure_for(row.pictures.back(), 0.93);
-    write_sheet(page.file("many-lights.png"), columns, {row});
-    page.image(
-        "many-lights.png",
-        "The room at 16 samples, the lights chosen uniformly, by power and by the tree; and the limit");
+    show_sheet(lab, "many-lights.png",
+               "The room at 16 samples, the lights chosen uniformly, by power and by the tree; and the limit",
+               columns, {row});
 
     Setup const points = room(lab.pixels(40), lab.pixels(30), scenes::Pixels::Points);
     Reference const reference =

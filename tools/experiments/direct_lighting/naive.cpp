@@ -38,7 +38,6 @@ Setup room(int width, int height) {
 
 void naive_or_direct(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Naive, or asking the light");
     page.text(
         "A closed room of 4 × 5 × 3 (reflectance 0.5) with a ball and a box; a square of side 3 under its "
         "ceiling is the "
@@ -63,8 +62,8 @@ void naive_or_direct(Lab const& lab) {
         large, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(256), 1));
     columns.emplace_back(lab.quick ? "8" : "256 samples");
     row.exposure = exposure_for(row.pictures.back(), 0.90);
-    write_sheet(page.file("naive.png"), columns, {row});
-    page.image("naive.png", "The room at 16 samples: naive, lights sampled, both; and the limit");
+    show_sheet(lab, "naive.png", "The room at 16 samples: naive, lights sampled, both; and the limit",
+               columns, {row});
 
     Setup const small = room(lab.pixels(48), lab.pixels(36));
     Reference const reference = reference_by_samples(

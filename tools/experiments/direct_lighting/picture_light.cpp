@@ -44,7 +44,6 @@ std::string lamp() {
 
 void picture_light(Lab const& lab) {
     Page& page = lab.page;
-    page.section("A picture that shines");
     page.text(
         "A square of side 2 at a height of 1 above 3 × 3 units of the floor, whose radiance is a picture of "
         "64 × 64 pixels: "
@@ -67,9 +66,9 @@ void picture_light(Lab const& lab) {
         row.pictures.push_back(render_picture(whole, direct(shapes, "independent"), 16, 1));
     row.pictures.push_back(render_picture(whole, direct("solidangle", "zsobol"), lab.passes(512), 1));
     row.exposure = exposure_for(row.pictures.back());
-    write_sheet(page.file("picture-light.png"), {"area", "default", lab.quick ? "16" : "512 samples"}, {row});
-    page.image("picture-light.png",
-               "The floor below the picture at 16 samples, by area and by default; and the limit");
+    show_sheet(lab, "picture-light.png",
+               "The floor below the picture at 16 samples, by area and by default; and the limit",
+               {"area", "default", lab.quick ? "16" : "512 samples"}, {row});
 
     Setup const points = setup(lab.pixels(32), scenes::Pixels::Points);
     Reference const reference =

@@ -94,7 +94,6 @@ void errors(Lab const& lab, std::string const& title, std::string const& file, s
 
 void samplers(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Samplers");
     points(page);
     std::string code =
         "Integrator \"direct\" \"string strategy\" \"light\" \"string shapesampling\" \"area\"\n";

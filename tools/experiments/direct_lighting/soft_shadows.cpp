@@ -55,8 +55,7 @@ void sheet(Lab const& lab, std::string const& file, std::string const& alt,
         row.exposure = exposure_for(row.pictures.back());
         rows.push_back(std::move(row));
     }
-    write_sheet(lab.page.file(file), columns, rows);
-    lab.page.image(file, alt);
+    show_sheet(lab, file, alt, columns, rows);
 }
 
 /// Errors of the same views at a smaller size. Trials that differ by their sampling alone share a reference.
@@ -143,7 +142,6 @@ std::string shaded_cylinder() {
 }  // namespace
 
 void soft_shadows(Lab const& lab) {
-    lab.page.section("Soft shadows");
     squares(lab);
     two_ways(lab, "A sphere light", "The same ball under a sphere of radius 0.5 at (−1, 0.5, 2.6).",
              "sphere.png",

@@ -70,7 +70,6 @@ void one_light(Lab const& lab, std::string const& title, std::string const& file
 
 void strategies(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Strategies side by side");
     page.text(
         "A floor of reflectance 0.5 below a square light, nothing between them; the truth is Lambert's "
         "formula. The light is "

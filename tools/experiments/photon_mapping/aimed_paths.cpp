@@ -59,7 +59,6 @@ Cast cast(Setup const& setup, bool aim, std::uint64_t paths) {
 
 void aimed_paths(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Aim");
     page.text(
         "Of the paths that a lamp sends anywhere, few meet what casts caustics. Aimed ones are sent "
         "towards what reflects or refracts alone, and carry less: in the mean the same light. The room is "

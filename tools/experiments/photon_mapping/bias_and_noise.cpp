@@ -65,7 +65,6 @@ std::uint64_t paths_of(Lab const& lab) { return lab.quick ? kPaths / 20 : kPaths
 
 void bias_and_noise(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Bias and noise");
     page.text(
         "A point light over a floor, and a small mirror beside it: the mirror throws a patch of light on "
         "the floor, whose radiance has a closed form, with sharp edges. Only the caustic map is asked, at "
@@ -97,8 +96,8 @@ void bias_and_noise(Lab const& lab) {
     }
     row.pictures.push_back(patch_reference(kSmallMirror, patch_setup(kSmallMirror, lab.pixels(128))).picture);
     labels.emplace_back("closed form");
-    write_sheet(page.file("bias.png"), labels, {row});
-    page.image("bias.png", "A patch of mirrored light by photons an estimate, and in closed form");
+    show_sheet(lab, "bias.png", "A patch of mirrored light by photons an estimate, and in closed form",
+               labels, {row});
     noise.note = "slope " + fixed(log_log_slope(noise.x, noise.y), 2);
     page.save("bias.svg", line_plot("Bias and noise", {"photons an estimate", true, bias.x},
                                     {"share of the mean radiance"}, {bias, noise, both}));
@@ -116,7 +115,6 @@ void bias_and_noise(Lab const& lab) {
 
 void kernels(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Kernels");
     page.text(
         "How photons are weighed by their distance, over the same patch of light, with the same photons, "
         "100 an estimate; and below the glass ball of `scenes/cornell-spheres.pbrt`, 60 an estimate.");
@@ -144,8 +142,7 @@ void kernels(Lab const& lab) {
             1, 1));
     }
     row.exposure = 0.4 * exposure_for(row.pictures.back(), 0.95);
-    write_sheet(page.file("kernels.png"), names, {row});
-    page.image("kernels.png", "The caustic below a glass ball by kernel");
+    show_sheet(lab, "kernels.png", "The caustic below a glass ball by kernel", names, {row});
     page.table({"100 photons an estimate", "bias, RMS", "far from edges, mean", "noise, RMS", "both"}, rows);
     page.text(
         "At the same number of photons a kernel that falls off sees less far: less bias, more noise. The "

@@ -77,7 +77,6 @@ Witness witness(Window const& window, std::function<Picture(std::uint64_t seed)>
 
 void equal_time(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Path tracing, photon maps and progressive maps in equal time");
     double const seconds = 6, longer = 36;
     page.text(
         fmt::format("`scenes/cup.pbrt`, `ring`, `goblet` and `pool`, {} seconds each, in rgb mode; shown, "
@@ -136,10 +135,10 @@ void equal_time(Lab const& lab) {
         }
         sheet.push_back(std::move(row));
     }
-    write_sheet(page.file("equal-time.png"), {"path", "photonmap", "sppm", "reference"}, sheet);
-    page.image("equal-time.png",
+    show_sheet(lab, "equal-time.png",
                "Cup, ring, goblet and pool: path tracing, photon mapping, progressive photon mapping in "
-               "equal time, and the reference");
+               "equal time, and the reference",
+               {"path", "photonmap", "sppm", "reference"}, sheet);
     page.table({"relMSE where the caustic is", "path", "photonmap", "sppm", "of the reference (estimated)",
                 "path ÷ photonmap", "path ÷ sppm", "whole picture: path ÷ photonmap", "path ÷ sppm"},
                rows);

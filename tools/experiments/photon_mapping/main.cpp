@@ -3,20 +3,22 @@
 #include "sections.h"
 
 #include "experiment.h"
+#include "figures.h"
 
 namespace {
 
 using namespace nephroid::experiment;
 
-constexpr Section kSections[] = {{"Whitted and path tracing", whitted_and_paths},
-                                 {"photons and paths", photons_and_paths},
-                                 {"estimates shown", estimates_shown},
-                                 {"pictures of the report", pictures_of_the_report},
-                                 {"bias and noise", bias_and_noise},
-                                 {"kernels", kernels},
-                                 {"aim", aimed_paths},
-                                 {"progressive passes", progressive_passes},
-                                 {"equal time", equal_time}};
+constexpr Section kSections[] = {
+    {"Whitted against path tracing", whitted_and_paths},
+    {"Photons, paths and normals", photons_and_paths},
+    {"The maps, seen", estimates_shown},
+    {"The report's pictures", pictures_of_the_report},
+    {"Bias and noise", bias_and_noise},
+    {"Kernels", kernels},
+    {"Aim", aimed_paths},
+    {"Passes", progressive_passes},
+    {"Path tracing, photon maps and progressive maps in equal time", equal_time}};
 
 void introduction(Page& page) {
     page.text(

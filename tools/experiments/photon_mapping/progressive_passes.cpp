@@ -10,7 +10,6 @@ namespace nephroid::experiment {
 
 void progressive_passes(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Passes");
     page.text(
         "The same floor below a mirror so large that all of it lies in the mirrored light. Each pass "
         "shoots new photons and has a smaller radius; α says how fast it shrinks: with 1 it stays. The "

@@ -167,7 +167,6 @@ void material_balls(Lab const& lab) {
     Page& page = lab.page;
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 20\nSampler \"zsobol\"";
     std::uint64_t const passes = lab.passes(128);
-    page.section("A ball of every model");
     page.text(fmt::format(
         "A ball of radius 1 over a plinth of the same material, on a checkered floor, below a lamp, beside a "
         "strip of light, under a dim sky; spectral, 2 × {} samples a pixel. What lets light pass unbent has "
@@ -191,8 +190,7 @@ void material_balls(Lab const& lab) {
             rows.push_back({b.label + ": `" + b.material + "`", number(mean(r.picture)), percent(r.error)});
         }
         row.exposure = exposure;
-        write_sheet(page.file(g.file), labels, {row});
-        page.image(g.file, g.title);
+        show_sheet(lab, g.file, g.title, labels, {row});
         page.table({"", "mean radiance", "error"}, rows);
     }
     page.text(

@@ -8,13 +8,13 @@ namespace {
 
 using namespace nephroid::experiment;
 
-constexpr Section kSections[] = {{"material balls", material_balls},
-                                 {"mirrors and glass", mirrors_and_glass},
-                                 {"mesh figure", mesh_figure},
-                                 {"roughness sweep", roughness_sweep},
-                                 {"white furnace", white_furnace},
-                                 {"prism", prism},
-                                 {"nested dielectrics", nested_dielectrics}};
+constexpr Section kSections[] = {{"A ball of every model", material_balls},
+                                 {"Mirrors and glass", mirrors_and_glass},
+                                 {"A mesh as mirror and as glass", mesh_figure},
+                                 {"Roughness and anisotropy", roughness_sweep},
+                                 {"White furnace", white_furnace},
+                                 {"A prism", prism},
+                                 {"Glass, juice and ice", nested_dielectrics}};
 
 void introduction(Page& page) {
     page.text("What surfaces do to light: each scattering model seen, and its energy counted. Made by");

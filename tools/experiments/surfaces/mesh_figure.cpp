@@ -14,7 +14,6 @@ namespace nephroid::experiment {
 
 void mesh_figure(Lab const& lab) {
     Page& page = lab.page;
-    page.section("A mesh as mirror and as glass");
     page.text(
         "The report's Figures 12 and 13, with a figure of our own: the knot of 5040 triangles in "
         "`scenes/meshes`, in the Cornell box.");
@@ -53,9 +52,9 @@ void mesh_figure(Lab const& lab) {
         row.pictures.push_back(reference.picture);
         sheet.push_back(std::move(row));
     }
-    write_sheet(page.file("knot.png"), {"10 samples", "50 samples", fmt::format("{} samples", 2 * many)},
-                sheet);
-    page.image("knot.png", "A knot as mirror and as glass, at 10 and 50 samples a pixel, and in the limit");
+    show_sheet(lab, "knot.png",
+               "A knot as mirror and as glass, at 10 and 50 samples a pixel, and in the limit",
+               {"10 samples", "50 samples", fmt::format("{} samples", 2 * many)}, sheet);
     page.table({fmt::format("{0} × {0} pixels", pixels), "error", "time", "samples a second"}, rows);
     page.text(
         "Light that glass gathers on the walls is met by chance alone when paths come from the camera: what "

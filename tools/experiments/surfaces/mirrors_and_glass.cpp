@@ -48,10 +48,10 @@ void pictures(Lab const& lab) {
         rows.push_back({w.label + ": `" + w.material + "`", number(mean(row.pictures.back()))});
     }
     row.exposure = exposure_for(row.pictures.front(), 0.9);
-    write_sheet(lab.page.file("delta.png"), labels, {row});
-    lab.page.image("delta.png",
-                   "A sphere in the Cornell box: mirrors and glasses, with Fresnel's equations "
-                   "and without");
+    show_sheet(lab, "delta.png",
+               "A sphere in the Cornell box: mirrors and glasses, with Fresnel's equations "
+               "and without",
+               labels, {row});
     lab.page.table({"", "mean radiance"}, rows);
     lab.page.text(
         fmt::format("{} samples a pixel. Without Fresnel's equations a mirror throws back all light, and a "
@@ -135,7 +135,6 @@ void curves(Lab const& lab) {
 }  // namespace
 
 void mirrors_and_glass(Lab const& lab) {
-    lab.page.section("Mirrors and glass");
     lab.page.text("The report's Figures 9 and 10: delta reflection and delta refraction.");
     pictures(lab);
     curves(lab);

@@ -46,7 +46,6 @@ void slabs(Lab const& lab) {
 
 void nested_dielectrics(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Glass, juice and ice");
     page.text(
         "`scenes/iced-juice.pbrt`: bodies that overlap, the one of the highest priority being there, and "
         "absorption inside.");
@@ -56,8 +55,7 @@ void nested_dielectrics(Lab const& lab) {
     SheetRow row{"", {}, 1};
     row.pictures.push_back(render_picture(
         setup, "Integrator \"path\" \"integer maxdepth\" 32\nSampler \"zsobol\"", lab.passes(512), 1));
-    write_sheet(page.file("iced-juice.png"), {}, {row});
-    page.image("iced-juice.png", "A tumbler of juice with ice and a straw");
+    show_sheet(lab, "iced-juice.png", "A tumbler of juice with ice and a straw", {}, {row});
     page.text(
         "A slab inside a slab, of indices 1, seen straight through: where they overlap (2 of 4 units) the "
         "one of the higher priority absorbs, 0.4 a unit the inner one and 0.1 the outer one.");

@@ -172,8 +172,8 @@ void spectra(Lab const& lab) {
                                          kDirectives, lab.passes(1024), 1);
         rows.push_back({glass, {p}, 0.7 * exposure_for(p, 0.995)});
     }
-    write_sheet(lab.page.file("spectrum.png"), {}, rows);
-    lab.page.image("spectrum.png", "The spectrum of a white slit through prisms of dense flint and of crown");
+    show_sheet(lab, "spectrum.png", "The spectrum of a white slit through prisms of dense flint and of crown",
+               {}, rows);
 }
 
 void table_top(Lab const& lab) {
@@ -187,15 +187,14 @@ void table_top(Lab const& lab) {
             setup, "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"", lab.passes(256), 1));
     }
     row.exposure = exposure_for(row.pictures[1], 0.985);
-    write_sheet(lab.page.file("prism.png"), {"spectral", "rgb"}, {row});
-    lab.page.image("prism.png", "A lamp seen through a prism, in spectral mode and in rgb mode");
+    show_sheet(lab, "prism.png", "A lamp seen through a prism, in spectral mode and in rgb mode",
+               {"spectral", "rgb"}, {row});
 }
 
 }  // namespace
 
 void prism(Lab const& lab) {
     Page& page = lab.page;
-    page.section("A prism");
     page.text(
         "`scenes/prism.pbrt`: a lamp seen past a prism of dense flint and through it. In rgb mode a glass "
         "has "

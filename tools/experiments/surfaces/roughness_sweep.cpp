@@ -60,8 +60,8 @@ void isotropic(Lab const& lab) {
         row.exposure = exposure;
         rows.push_back(std::move(row));
     }
-    write_sheet(lab.page.file("roughness.png"), columns, rows);
-    lab.page.image("roughness.png", "Spheres of aluminium, glass and plastic over alpha, by distribution");
+    show_sheet(lab, "roughness.png", "Spheres of aluminium, glass and plastic over alpha, by distribution",
+               columns, rows);
 }
 
 void anisotropic(Lab const& lab) {
@@ -78,10 +78,10 @@ void anisotropic(Lab const& lab) {
         row.exposure = exposure;
         rows.push_back(std::move(row));
     }
-    write_sheet(lab.page.file("anisotropy.png"), columns, rows);
-    lab.page.image("anisotropy.png",
-                   "Spheres of aluminium: alpha along the circles of latitude (ax) and "
-                   "across them (ay)");
+    show_sheet(lab, "anisotropy.png",
+               "Spheres of aluminium: alpha along the circles of latitude (ax) and "
+               "across them (ay)",
+               columns, rows);
 }
 
 /// What a sphere gives back of a white sky, if facets themselves absorb nothing.
@@ -111,7 +111,6 @@ void albedos(Lab const& lab, std::string const& what, std::string const& materia
 
 void roughness_sweep(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Roughness and anisotropy");
     page.text(fmt::format(
         "Spheres in the studio, {} samples a pixel. Columns: alpha. Rows: aluminium, glass and plastic, with "
         "normals spread as by Trowbridge & Reitz (ggx), Beckmann and Blinn; `comp.`: with compensation.",

@@ -127,7 +127,6 @@ std::string with_alpha(std::string material, double alpha) {
 
 void white_furnace(Lab const& lab) {
     Page& page = lab.page;
-    page.section("White furnace");
     std::uint64_t const samples = lab.quick ? 256 : 1 << 17;
     page.text(fmt::format(
         "The directional albedo: what is scattered at all of light from one direction, the mean of f·|cos|/p "

@@ -1,6 +1,6 @@
 // Whitted's tracer against path tracing (Figure 16 of the report).
+#include "figures.h"
 #include "runs.h"
-#include "sections.h"
 
 #include "sheet.h"
 
@@ -10,7 +10,6 @@ namespace nephroid::experiment {
 
 void whitted_and_paths(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Whitted against path tracing");
     page.text(
         "The report's Figure 16. Whitted's tracer of 1980 knows direct light, mirrors and glass: what lies "
         "in the shadow of the lamp is black, and so are the ceiling and what glass gathers below it.");
@@ -44,9 +43,9 @@ void whitted_and_paths(Lab const& lab) {
     table.push_back({labels.back() + " samples a pixel", number(mean(reference.picture)),
                      percent(reference.error) + " (estimated)", ""});
     row.pictures.push_back(reference.picture);
-    write_sheet(page.file("whitted.png"), labels, {row});
-    page.image("whitted.png",
-               "The Cornell box with a silver and a glass ball: Whitted's tracer and path tracing");
+    show_sheet(lab, "whitted.png",
+               "The Cornell box with a silver and a glass ball: Whitted's tracer and path tracing", labels,
+               {row});
     page.table({fmt::format("`scenes/cornell-spheres.pbrt`, {0} × {0}", n), "mean radiance", "error", "time"},
                table);
     page.text(

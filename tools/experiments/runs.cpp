@@ -23,16 +23,6 @@ Settings seeded(Setup const& setup, std::string const& directives, std::uint64_t
     return s;
 }
 
-Image image_of(Picture const& p) {
-    Image image(PixelFormat::Float, p.width, p.height, default_channel_names(3));
-    std::size_t i = 0;
-    for (int y = 0; y < p.height; ++y)
-        for (int x = 0; x < p.width; ++x, ++i)
-            for (int c = 0; c < 3; ++c)
-                image.set(x, y, c, static_cast<float>(p.rgb[i][static_cast<std::size_t>(c)]));
-    return image;
-}
-
 }  // namespace
 
 Run run(Setup const& setup, std::string const& directives, std::uint64_t passes, std::uint64_t seed) {

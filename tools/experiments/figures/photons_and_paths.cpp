@@ -1,6 +1,6 @@
 // Photons, their paths and the normals where they landed, drawn over the picture (Figures 17 to 19 of the report).
+#include "figures.h"
 #include "runs.h"
-#include "sections.h"
 
 #include "apps/photon_overlay.h"
 #include "sheet.h"
@@ -30,7 +30,6 @@ Picture over(Image const& marks, Picture under) {
 
 void photons_and_paths(Lab const& lab) {
     Page& page = lab.page;
-    page.section("Photons, paths and normals");
     int const n = lab.pixels(300);
     int const photons = lab.quick ? 40 : 6000, paths = lab.quick ? 4 : 60, normals = lab.quick ? 20 : 1200;
     page.text(
@@ -55,9 +54,9 @@ void photons_and_paths(Lab const& lab) {
         o.photons = some_photons, o.paths = some_paths, o.normals = some_normals;
         return over(cli::draw_photons(job, 0, o), under);
     };
-    write_sheet(page.file("photons.png"), {"photons", "paths", "normals"},
-                {{"", {draw(photons, 0, 0), draw(0, paths, 0), draw(0, 0, normals)}, 1}});
-    page.image("photons.png", "Photons, photon paths and normals over the Cornell box with two balls");
+    show_sheet(lab, "photons.png", "Photons, photon paths and normals over the Cornell box with two balls",
+               {"photons", "paths", "normals"},
+               {{"", {draw(photons, 0, 0), draw(0, paths, 0), draw(0, 0, normals)}, 1}});
 
     std::uint64_t const shot = lab.quick ? 2000 : 200000;
     std::vector<std::vector<std::string>> rows;

@@ -1,6 +1,6 @@
 // Whole pictures with the report's own settings (Figures 23 to 25), and their times next to the report's.
+#include "figures.h"
 #include "runs.h"
-#include "sections.h"
 #include "water.h"
 
 #include "sheet.h"
@@ -36,7 +36,6 @@ std::string directives(Figure const& f, std::uint64_t global_paths, std::uint64_
 
 void pictures_of_the_report(Lab const& lab) {
     Page& page = lab.page;
-    page.section("The report's pictures");
     page.text(
         fmt::format("Figures 23 to 25 of the report, with the numbers that it gives: photons stored, photons "
                     "an estimate, samples along a pixel's edge, and for the first a path depth of 4. "
@@ -77,8 +76,8 @@ void pictures_of_the_report(Lab const& lab) {
         labels.push_back(f.name);
         row.pictures.push_back(exposed(std::move(r.picture), 0.95));
     }
-    write_sheet(page.file("report.png"), labels, {row});
-    page.image("report.png", "Spheres, reflective boxes and water, with the report's settings");
+    show_sheet(lab, "report.png", "Spheres, reflective boxes and water, with the report's settings", labels,
+               {row});
     page.table({fmt::format("{0} × {0} pixels", n), "global: wanted", "emitted", "stored", "caustic: wanted",
                 "emitted", "stored", "shooting", "making the maps", "in all", "the report's"},
                rows);

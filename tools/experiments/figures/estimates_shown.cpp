@@ -1,6 +1,6 @@
 // Estimates from the maps, shown as they are (Figures 20 to 22 of the report).
+#include "figures.h"
 #include "runs.h"
-#include "sections.h"
 
 #include "sheet.h"
 
@@ -63,8 +63,7 @@ void global_counts(Lab const& lab) {
         row.pictures.push_back(std::move(r.picture));
     }
     row.exposure = exposure_for(row.pictures.back(), 0.93);
-    write_sheet(page.file("global.png"), labels, {row});
-    page.image("global.png", "The global map, seen: 10,000, 50,000 and 500,000 photons");
+    show_sheet(lab, "global.png", "The global map, seen: 10,000, 50,000 and 500,000 photons", labels, {row});
     page.table(kCounts, rows);
 }
 
@@ -98,8 +97,8 @@ void caustics(Lab const& lab) {
         rows.push_back(counted(lab, s.label, photons, r.photons.caustic, r.seconds));
         sheet[0].pictures.push_back(exposed(std::move(r.picture), 0.985));
     }
-    write_sheet(page.file("caustics.png"), labels, sheet);
-    page.image("caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls");
+    show_sheet(lab, "caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls",
+               labels, sheet);
     page.table(kCounts, rows);
 }
 
@@ -127,15 +126,13 @@ void both_maps(Lab const& lab) {
         row.pictures.push_back(std::move(r.picture));
     }
     row.exposure = exposure_for(row.pictures.back(), 0.93);
-    write_sheet(page.file("maps.png"), {"global", "caustic", "both"}, {row});
-    page.image("maps.png", "Global map, caustic map, and both");
+    show_sheet(lab, "maps.png", "Global map, caustic map, and both", {"global", "caustic", "both"}, {row});
     page.table({"", "global photons stored", "caustic photons stored", "mean radiance", "time"}, rows);
 }
 
 }  // namespace
 
 void estimates_shown(Lab const& lab) {
-    lab.page.section("The maps, seen");
     global_counts(lab);
     caustics(lab);
     both_maps(lab);

@@ -1,0 +1,13 @@
+// Figures of the report that more than one page shows. Each renders, measures and writes.
+#pragma once
+
+#include "lab.h"
+
+namespace nephroid::experiment {
+
+void whitted_and_paths(Lab const& lab);       // Figure 16
+void photons_and_paths(Lab const& lab);       // 17 to 19
+void estimates_shown(Lab const& lab);         // 20 to 22
+void pictures_of_the_report(Lab const& lab);  // 23 to 25
+
+}  // namespace nephroid::experiment

@@ -1,0 +1,37 @@
+// experiment_report [--quick] FOLDER: writes FOLDER/figures.md, figures.html, figures/* and full/*, every number and picture of them
+// from renders that it makes itself. Run by ./dev report.
+#include "sections.h"
+
+#include "experiment.h"
+#include "figures.h"
+
+namespace {
+
+using namespace nephroid::experiment;
+
+constexpr Section kSections[] = {
+    {"Figure 16. Whitted's tracer and path tracing", whitted_and_paths},
+    {"Figures 17 to 19. Photons, their paths, and normals", photons_and_paths},
+    {"Figures 20 to 22. The maps, seen", estimates_shown},
+    {"Figures 23 to 25. Spheres, mirror boxes, water", pictures_of_the_report},
+};
+
+void introduction(Page& page) {
+    page.text(
+        "nephroid began with a student's report of 2010: a Monte Carlo ray tracer, and the photon maps that "
+        "it needed to get "
+        "caustics. Here are that report's twenty-five figures, made anew from the scenes in `scenes/report`, "
+        "by");
+    page.code("./dev report");
+    page.text(
+        "which renders and measures everything again and writes this page, also as HTML, with pictures in "
+        "full size (EXR and "
+        "PNG): no number or picture on it was put there by hand. Times are the machine's, which had two "
+        "cores.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_experiment({"figures", "The report, reproduced", introduction, kSections, 2}, argc, argv);
+}

@@ -1,0 +1,6 @@
+// The figures of docs/report that no other page shows, in their order. Each renders, measures and writes.
+#pragma once
+
+#include "lab.h"
+
+namespace nephroid::experiment {}  // namespace nephroid::experiment
