@@ -210,6 +210,7 @@ int run(RenderOptions const& o) {
     scene.settings = settings;  // so that overrides are validated like the rest
     World const world = compile(std::move(scene));
     RenderJob const job(world, settings);
+    check_memory(refined(need, job), memory_limit);
     Film film = job.make_film();
     film.describe(words_of(settings));
     if (!o.resume.empty()) resume(o.resume, film);
