@@ -95,7 +95,14 @@ class Hasher {
     // Names are for people.
     void put(Digest& d, Material const& m) { put_fields_except(d, m, &m.name); }
     void put(Digest& d, Group const& g) { put_fields_except(d, g, &g.name); }
-    /// Said in two ways: v none is as u.
+    // Said in two ways: what is beyond the poles is not there …
+    void put(Digest& d, Sphere const& s) {
+        Sphere cut = s;
+        cut.z_min = std::max(s.z_min, -s.radius);
+        cut.z_max = std::min(s.z_max, s.radius);
+        for_each_field(cut, [&](auto const& field) { put(d, field); });
+    }
+    // … and v none is as u.
     void put(Digest& d, Roughness const& r) {
         Roughness both = r;
         if (!both.v.valid()) both.v = both.u;

@@ -15,7 +15,7 @@ std::string Writer::inverse_transform(ParamText& p, Mat4 const& m, std::string c
     auto const again = inverse(*back);
     if (portable_ || (again && *again == m)) return there;
     p.string("inverse", name);
-    return "Transform" + matrix_text(m) + "\nCoordinateSystem " + quoted(name) + '\n' + there;
+    return "Transform" + matrix_text(m) + "\nCoordinateSystem " + in_quotes(name) + '\n' + there;
 }
 
 void Writer::write_camera() {

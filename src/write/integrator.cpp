@@ -12,14 +12,14 @@ std::string_view name_in(std::array<std::string_view, N> const& names, T x) {
     return names[static_cast<std::size_t>(x)];
 }
 
-void write(ParamText& p, LightSampling const& l) {
+void parameters(ParamText& p, LightSampling const& l) {
     constexpr std::array<std::string_view, 3> kChoices{"bvh", "power", "uniform"};
     constexpr std::array<std::string_view, 5> kShapes{"solidangle", "area", "visiblearea", "projected",
                                                       "visibleunweighed"};
     p.choice("lightsampler", name_in(kChoices, l.choice), "bvh");
     p.choice("shapesampling", name_in(kShapes, l.shapes), "solidangle");
 }
-void write(ParamText& p, HemisphereSampling h) {
+void parameters(ParamText& p, HemisphereSampling h) {
     p.choice("hemisphere", h == HemisphereSampling::Uniform ? "uniform" : "cosine", "cosine");
 }
 
@@ -38,31 +38,31 @@ void write_photons(ParamText& p, Photons const& i) {
     p.boolean("edgecorrection", i.estimates.edge_correction, standard.estimates.edge_correction);
     p.number("alpha", i.alpha, standard.alpha);
     p.choice("visualize", name_in(kViews, i.visualize), "none");
-    write(p, i.lights);
+    parameters(p, i.lights);
 }
 
-char const* write(ParamText& p, PathIntegrator const& i) {
+char const* parameters(ParamText& p, PathIntegrator const& i) {
     constexpr std::array<std::string_view, 3> kRoulettes{"throughput", "fixed", "none"};
     p.choice("roulette", name_in(kRoulettes, i.roulette.kind), "throughput");
     p.number("alpha", i.roulette.alpha, Roulette{}.alpha);
     p.boolean("samplelights", i.sample_lights, true);
     p.boolean("mis", i.sample_bsdf_mis, true);
-    write(p, i.hemisphere);
-    write(p, i.lights);
+    parameters(p, i.hemisphere);
+    parameters(p, i.lights);
     return "path";
 }
-char const* write(ParamText& p, WhittedIntegrator const& i) {
-    write(p, i.lights);
+char const* parameters(ParamText& p, WhittedIntegrator const& i) {
+    parameters(p, i.lights);
     return "whitted";
 }
-char const* write(ParamText& p, DirectIntegrator const& i) {
+char const* parameters(ParamText& p, DirectIntegrator const& i) {
     constexpr std::array<std::string_view, 3> kStrategies{"mis", "light", "bsdf"};
     p.choice("strategy", name_in(kStrategies, i.strategy), "mis");
-    write(p, i.hemisphere);
-    write(p, i.lights);
+    parameters(p, i.hemisphere);
+    parameters(p, i.lights);
     return "direct";
 }
-char const* write(ParamText& p, PhotonMapIntegrator const& i) {
+char const* parameters(ParamText& p, PhotonMapIntegrator const& i) {
     p.integer("indirectphotons", i.shooting.global_paths);
     p.integer("maxphotondepth", i.shooting.max_depth, PhotonShooting{}.max_depth);
     p.boolean("finalgather", i.final_gather, true);
@@ -71,15 +71,15 @@ char const* write(ParamText& p, PhotonMapIntegrator const& i) {
     write_photons(p, i);
     return "photonmap";
 }
-char const* write(ParamText& p, SppmIntegrator const& i) {
+char const* parameters(ParamText& p, SppmIntegrator const& i) {
     p.integer("photonsperiteration", i.shooting.global_paths, -1);
     p.integer("maxphotondepth", i.shooting.max_depth, i.max_depth);
     write_photons(p, i);
     return "sppm";
 }
-char const* write(ParamText& p, LightPathIntegrator const& i) {
+char const* parameters(ParamText& p, LightPathIntegrator const& i) {
     p.integer("lightpaths", i.paths, -1);
-    write(p, i.lights);
+    parameters(p, i.lights);
     return "lightpath";
 }
 
@@ -94,7 +94,7 @@ void Writer::write_integrator() {
     if (sppm && sppm->shooting.global_paths == 0) refuse(s.integrator_where, "sppm without photons");
     ParamText p;
     p.integer("maxdepth", match(s.integrator, [](auto const& i) { return i.max_depth; }));
-    std::string type = match(s.integrator, [&](auto const& i) { return write(p, i); });
+    std::string type = match(s.integrator, [&](auto const& i) { return parameters(p, i); });
     // pbrt's path tracer knows no media.
     if (type == "path" && !media_.empty()) type = "volpath";
     head_ += "Integrator \"" + type + '"' + p.text() + '\n';

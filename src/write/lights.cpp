@@ -19,6 +19,12 @@ double ies_degrees(float angle, double most) {
     return static_cast<float>(near * kDegree) == angle ? near : exact;
 }
 
+/// What pictures are shares of.
+bool is_white(Spd const& spd) {
+    auto const* rgb = std::get_if<RgbIlluminantSpd>(&spd);
+    return rgb && rgb->rgb == Vec3{1, 1, 1} && rgb->white == RgbWhite::D65;
+}
+
 /// pbrt takes 0 for "not given".
 bool has_form(float power) { return power < 0 || power > 0; }
 
@@ -89,10 +95,11 @@ void Writer::write_light(Light const& light) {
             return "distant";
         },
         [&](InfiniteLight const& l) {
+            constexpr std::array<char const*, 3> kMappings{"bysize", "equalarea", "latlong"};
+            if (!portable_) p.choice("mapping", kMappings[static_cast<std::size_t>(l.mapping)], "bysize");
             if (l.image.valid()) {
-                constexpr std::array<char const*, 3> kMappings{"bysize", "equalarea", "latlong"};
+                if (!is_white(l.radiance)) refuse(where, "a picture of another light than white");
                 p.string("filename", picture(l.image, "", where));
-                if (!portable_) p.choice("mapping", kMappings[static_cast<std::size_t>(l.mapping)], "bysize");
             } else {
                 colour("L", l.radiance);
             }
@@ -142,6 +149,8 @@ std::string Writer::area_light(AreaLight const& l) {
     ParamText p;
     std::string space;
     if (l.image.valid() && l.texture.valid()) refuse(l.where, "a light of both a picture and a texture");
+    if ((l.image.valid() || l.texture.valid()) && !is_white(l.radiance))
+        refuse(l.where, "a picture of another light than white");
     if (l.texture.valid()) {
         // Not as a value, which would be an emission.
         p.texture("L", texture(l.texture, SpectrumRole::Unbounded));

@@ -95,12 +95,19 @@ void Writer::write_material(std::string const& name, Material const& m) {
             metallic_roughness(p, k, where);
             return "metallicroughness";
         });
+    bool const has_surface =
+        !std::holds_alternative<InterfaceMaterial>(m.kind) && !std::holds_alternative<MixMaterial>(m.kind);
+    if (!has_surface && (m.displacement.valid() || m.normal_map.image.valid()))
+        refuse(where, "bumps on a material without a surface of its own");
+    if (!m.normal_map.image.valid() && m.normal_map.scale != 1)
+        refuse(where, "the scale of a normal map that is not there");
     number(p, "displacement", m.displacement, {}, where);
     if (m.normal_map.image.valid()) {
         p.string("normalmap", picture(m.normal_map.image, "linear", where));
         p.number("normalscale", m.normal_map.scale, 1);
     }
-    materials_ += "MakeNamedMaterial " + quoted(name) + " \"string type\" \"" + type + '"' + p.text() + '\n';
+    materials_ +=
+        "MakeNamedMaterial " + in_quotes(name) + " \"string type\" \"" + type + '"' + p.text() + '\n';
 }
 
 void Writer::roughness(ParamText& p, std::string const& prefix, Roughness const& r, SourceLocation where) {
@@ -181,7 +188,7 @@ std::string const& Writer::medium(Spd const& absorption, SourceLocation where) {
     if (is_new) {
         it->second = "medium " + std::to_string(medium_names_.size());
         media_ +=
-            "MakeNamedMedium " + quoted(it->second) + " \"string type\" \"homogeneous\"" + p.text() + '\n';
+            "MakeNamedMedium " + in_quotes(it->second) + " \"string type\" \"homogeneous\"" + p.text() + '\n';
     }
     return it->second;
 }

@@ -128,6 +128,7 @@ void make_objects_portable(Scene& scene) {
                     o.shape = Shape{mesh_of(Quad(q))};
                 },
                 [](auto const&) {});
+            if (o.light && std::holds_alternative<InterfaceMaterial>(scene[o.material].kind)) o.light.reset();
             if (o.light) make_light_portable(scene, o);
         }
 }

@@ -22,7 +22,7 @@ std::string shortest(T x) {
 std::string text_of(float x) { return shortest(x); }
 std::string text_of(double x) { return shortest(x); }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (char const c : text) {
         static constexpr std::string_view kNames = "bfnrt\\\"", kValues = "\b\f\n\r\t\\\"";
@@ -89,16 +89,16 @@ void ParamText::boolean(std::string_view name, bool x) {
 }
 void ParamText::string(std::string_view name, std::string_view x) {
     declare("string", name);
-    text_ += ' ' + quoted(x);
+    text_ += ' ' + in_quotes(x);
 }
 void ParamText::texture(std::string_view name, std::string_view x) {
     declare("texture", name);
-    text_ += ' ' + quoted(x);
+    text_ += ' ' + in_quotes(x);
 }
 void ParamText::strings(std::string_view name, std::vector<std::string> const& x) {
     declare("string", name);
     text_ += " [";
-    for (std::string const& s : x) text_ += ' ' + quoted(s);
+    for (std::string const& s : x) text_ += ' ' + in_quotes(s);
     text_ += " ]";
 }
 void ParamText::spectrum(std::string_view name, TabulatedSpd const& table) {
@@ -110,7 +110,7 @@ void ParamText::spectrum(std::string_view name, TabulatedSpd const& table) {
 }
 void ParamText::spectrum(std::string_view name, std::string_view of_name) {
     declare("spectrum", name);
-    text_ += ' ' + quoted(of_name);
+    text_ += ' ' + in_quotes(of_name);
 }
 
 void ParamText::number(std::string_view name, float x, float otherwise) {

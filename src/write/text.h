@@ -16,7 +16,7 @@ namespace nephroid {
 std::string text_of(float x);
 std::string text_of(double x);
 /// In quotes, with escapes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 /// The degrees that radians() makes `angle` of; where no float is, the nearest one, and `exact` is false.
 float degrees_of(float angle, bool& exact);
 /// ` [ 16 numbers ]`, column by column.

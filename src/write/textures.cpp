@@ -49,6 +49,11 @@ void mapping_place(TextureMapping const& m, Mat4& place) {
         m, [](UvMapping const&) {}, [&](auto const& other) { place = other.world_to_texture; });
 }
 
+bool is_plain(TextureMapping const& m) {
+    auto const* uv = std::get_if<UvMapping>(&m);
+    return uv && uv->su == 1 && uv->sv == 1 && uv->du == 0 && uv->dv == 0;
+}
+
 constexpr std::array<char const*, 4> kWraps{"repeat", "black", "clamp", "octahedralsphere"};
 constexpr std::array<char const*, 4> kFilters{"point", "bilinear", "trilinear", "ewa"};
 
@@ -167,6 +172,8 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
         [&](CheckerboardTexture const& k) {
             spectra = is_spectrum(k.tex1);
             p.integer("dimension", k.dimension, 2);
+            if (k.dimension == 2 ? !is_identity(k.world_to_texture) : !is_plain(k.mapping))
+                refuse(where, "a checkerboard with the mapping of another dimension");
             if (k.dimension == 2) {
                 mapping(p, k.mapping);
                 mapping_place(k.mapping, from_world);
@@ -194,11 +201,13 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             spectra = is_spectrum(k.tex1);
             input(p, "tex1", k.tex1, spectra, role, 0, where);
             input(p, "tex2", k.tex2, spectra, role, 1, where);
-            auto const m = transform_to(k.dir);
-            if (m && !portable_)
-                place = "Transform" + matrix_text(*m) + '\n';
-            else
+            if (portable_) {
                 p.vector("dir", k.dir);
+            } else {
+                auto const m = transform_to(k.dir);
+                if (!m) refuse(where, "a direction that is not of length 1");
+                place = "Transform" + matrix_text(*m) + '\n';
+            }
             return "directionmix";
         },
         [&](BilerpTexture const& k) {
@@ -231,7 +240,7 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             return "marble";
         });
     place += inverse_transform(p, from_world, name + " from world");
-    std::string const text = "Texture " + quoted(name) + (spectra ? " \"spectrum\" \"" : " \"float\" \"") +
+    std::string const text = "Texture " + in_quotes(name) + (spectra ? " \"spectrum\" \"" : " \"float\" \"") +
                              kind + '"' + p.text() + '\n';
     textures_ += place.empty() ? text : "AttributeBegin\n" + place + text + "AttributeEnd\n";
 }

@@ -15,12 +15,16 @@ void Writer::refuse(SourceLocation where, std::string const& what) const {
 std::string Writer::object(Object const& o) {
     std::string out = "AttributeBegin\n";
     if (!is_identity(o.to_group)) out += "  Transform" + matrix_text(o.to_group) + '\n';
-    if (o.material.valid()) out += "  NamedMaterial " + quoted(material(o.material)) + '\n';
-    if (portable_ && o.material.valid())
+    if (!o.material.valid()) refuse(o.where, "an object without a material");
+    if (o.light && std::holds_alternative<InterfaceMaterial>(scene_[o.material].kind))
+        refuse(o.where, "a surface of \"interface\" that emits");
+    out += "  NamedMaterial " + in_quotes(material(o.material)) + '\n';
+    if (portable_)
         if (auto const* glass = std::get_if<DielectricMaterial>(&scene_[o.material].kind)) {
             auto const* none = std::get_if<ConstantSpd>(&glass->interior.absorption);
             if (!none || none->value != 0)
-                out += "  MediumInterface " + quoted(medium(glass->interior.absorption, o.where)) + " \"\"\n";
+                out +=
+                    "  MediumInterface " + in_quotes(medium(glass->interior.absorption, o.where)) + " \"\"\n";
         }
     if (o.light) out += area_light(*o.light);
     if (o.reverse_orientation) out += "  ReverseOrientation\n";
@@ -44,7 +48,7 @@ std::string Writer::content(Group const& g) {
         Mat4 m;
         for (std::size_t r = 0; r < 3; ++r)
             for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(i.to_parent[r][k]);
-        std::string const instance = "ObjectInstance " + quoted(group(i.group)) + '\n';
+        std::string const instance = "ObjectInstance " + in_quotes(group(i.group)) + '\n';
         if (is_identity(m))
             out += instance;
         else
@@ -61,7 +65,7 @@ std::string const& Writer::group(GroupId id) {
         unique(taken_groups_, g.name.empty() ? "object " + std::to_string(taken_groups_.size() + 1) : g.name);
     // First what it is made of.
     std::string const inside = content(g);
-    groups_ += "ObjectBegin " + quoted(name) + '\n' + inside + "ObjectEnd\n";
+    groups_ += "ObjectBegin " + in_quotes(name) + '\n' + inside + "ObjectEnd\n";
     return group_names_[id.value] = name;
 }
 

@@ -141,7 +141,10 @@ TEST_CASE("whatever shapes the picture changes the scene's hash") {
             },
             [](Scene& s) { std::get<TriangleMesh>(s.groups[1].objects[0].shape).n.resize(3); },
             [](Scene& s) { s.world().objects.push_back(s.groups[1].objects[0]); },
-            [](Scene& s) { s.groups[1].instances.push_back({s.add(Group{})}); },
+            [](Scene& s) {
+                GroupId const empty = s.add(Group{});
+                s.groups[1].instances.push_back({empty});
+            },
         });
 }
 
