@@ -28,7 +28,8 @@ Vec3 to_world_direction(Mat4 const& to_world, Vec3 v) {
         sum += w[r] * w[r];
     }
     if (!(sum > 0)) return Vec3{0};
-    double const scale = 1 / std::sqrt(sum);
+    // One that is a unit vector but for rounding keeps its bits.
+    double const scale = std::abs(sum - 1) < 1e-6 ? 1 : 1 / std::sqrt(sum);
     return {static_cast<float>(w[0] * scale), static_cast<float>(w[1] * scale),
             static_cast<float>(w[2] * scale)};
 }

@@ -26,7 +26,7 @@ bool is_white(Spd const& spd) {
 }
 
 /// pbrt takes 0 for "not given".
-bool has_form(float power) { return power < 0 || power > 0; }
+bool has_form(float power) { return power == -1 || power > 0; }
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void Writer::write_light(Light const& light) {
     std::string space;
     auto const strength = [&](float scale, char const* name, float value) {
         p.number("scale", scale, 1);
-        if (!has_form(value)) refuse(where, "a light of power 0 (give it a scale of 0)");
+        if (!has_form(value)) refuse(where, "a light of power 0 or below (give it a scale of 0)");
         if (value > 0) p.number(name, value);
     };
     auto const colour = [&](char const* name, Spd const& spectrum) {
@@ -161,7 +161,7 @@ std::string Writer::area_light(AreaLight const& l) {
         space = color_space_of(l.radiance);
     }
     p.number("scale", l.scale, 1);
-    if (!has_form(l.power)) refuse(l.where, "a light of power 0 (give it a scale of 0)");
+    if (!has_form(l.power)) refuse(l.where, "a light of power 0 or below (give it a scale of 0)");
     if (l.power > 0) p.number("power", l.power);
     p.boolean("twosided", l.two_sided, false);
     return space + "  AreaLightSource \"diffuse\"" + p.text() + '\n';

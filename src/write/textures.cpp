@@ -9,38 +9,10 @@ namespace nephroid {
 
 namespace {
 
-/// A transform under which (0, 1, 0) becomes a vector that is `d` after it is made a unit one and rounded.
-std::optional<Mat4> transform_to(Vec3 d) {
-    // d is a unit vector rounded: there is one within half a step of each of its numbers.
-    std::array<double, 3> low{}, high{};
-    auto const squared = [](std::array<double, 3> const& v) {
-        return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    };
-    for (std::size_t i = 0; i < 3; ++i) {
-        float const x = std::abs(d[static_cast<int>(i)]);
-        auto const half_step = [&](float y) {
-            return 0.4999 * (static_cast<double>(y) - static_cast<double>(x));
-        };
-        low[i] = static_cast<double>(x) + (x > 0 ? half_step(std::nextafter(x, 0.0f)) : 0);
-        high[i] = static_cast<double>(x) + half_step(std::nextafter(x, kInfinity));
-    }
-    if (!(squared(low) <= 1 && squared(high) >= 1)) return std::nullopt;
-    std::array<double, 3> v{};
-    double lo = 0, hi = 1;
-    for (int step = 0; step < 60; ++step) {
-        double const t = 0.5 * (lo + hi);
-        for (std::size_t i = 0; i < 3; ++i) v[i] = low[i] + t * (high[i] - low[i]);
-        (squared(v) < 1 ? lo : hi) = t;
-    }
-    Mat4 m;
-    std::size_t longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        m.m[i] = {0, std::copysign(v[i], static_cast<double>(d[static_cast<int>(i)])), 0, 0};
-        if (v[i] > v[longest]) longest = i;
-    }
-    // The other two columns: any that leave the matrix an inverse.
-    m.m[(longest + 1) % 3][0] = m.m[(longest + 2) % 3][2] = 1;
-    return m;
+/// Which a reader leaves as it is.
+bool is_unit(Vec3 d) {
+    auto const squared = [](float x) { return static_cast<double>(x) * static_cast<double>(x); };
+    return std::abs(squared(d.x) + squared(d.y) + squared(d.z) - 1) < 1e-6;
 }
 
 /// Only some mappings are somewhere.
@@ -133,7 +105,6 @@ void Writer::mapping(ParamText& p, TextureMapping const& m) {
 void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRole role) {
     ParamText p;
     Mat4 from_world;
-    std::string place;  // a transform of another kind
     SourceLocation const where = t.where;
     bool spectra = false;
     auto const noise = [&](auto const& k) {
@@ -201,13 +172,8 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             spectra = is_spectrum(k.tex1);
             input(p, "tex1", k.tex1, spectra, role, 0, where);
             input(p, "tex2", k.tex2, spectra, role, 1, where);
-            if (portable_) {
-                p.vector("dir", k.dir);
-            } else {
-                auto const m = transform_to(k.dir);
-                if (!m) refuse(where, "a direction that is not of length 1");
-                place = "Transform" + matrix_text(*m) + '\n';
-            }
+            if (!portable_ && !is_unit(k.dir)) refuse(where, "a direction that is not of length 1");
+            p.vector("dir", k.dir);
             return "directionmix";
         },
         [&](BilerpTexture const& k) {
@@ -239,7 +205,7 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             p.number("variation", k.variation, 0.2f);
             return "marble";
         });
-    place += inverse_transform(p, from_world, name + " from world");
+    std::string const place = inverse_transform(p, from_world, name + " from world");
     std::string const text = "Texture " + in_quotes(name) + (spectra ? " \"spectrum\" \"" : " \"float\" \"") +
                              kind + '"' + p.text() + '\n';
     textures_ += place.empty() ? text : "AttributeBegin\n" + place + text + "AttributeEnd\n";

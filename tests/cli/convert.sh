@@ -61,7 +61,7 @@ says 'ours.pbrt:4: "box" is replaced by six bilinear patches'
 # What is refused leaves nothing behind.
 run 2 convert scene.pbrt out.exr
 says "choose such a name"
-run 2 convert nothing.pbrt out.pbrt
+run 4 convert nothing.pbrt out.pbrt
 run 4 convert scene.pbrt nowhere/out.pbrt
 run 2 convert scene.pbrt out.pbrt --set radius=-1
 cp scene.pbrt part.pbrt

@@ -25,7 +25,14 @@ void check_round_trip(Scene const& s, Folder const& folder) {
     CHECK(back.settings.spp == s.settings.spp);
     CHECK(back.settings.film.filename == s.settings.film.filename);
     CHECK(back.settings.film.half_float == s.settings.film.half_float);
-    CHECK(notes(back) == "");
+    // Of what a reader always speaks about, and of nothing else.
+    for (Note const& n : back.notes) {
+        CAPTURE(n.text);
+        bool const known = n.text.find("each instance emits") != std::string::npos ||
+                           n.text.find("that of the whole mesh") != std::string::npos ||
+                           n.text.find("thin walls have no inside") != std::string::npos;
+        CHECK(known);
+    }
 }
 
 /// Another value for the n-th leaf of `thing` that is a number. False where there are fewer.
@@ -90,12 +97,13 @@ TEST_CASE("a scene of everything is read as what was written") {
     Scene const s = everything(folder);
     validate(s);
     check_round_trip(s, folder);
-    // And again: what is written of what was read is the same text.
-    std::string const first = contents(folder / "out.pbrt");
+    // From then on the text stays as it is.
     write_pbrt(read_scene(folder / "out.pbrt"), folder / "out.pbrt");
+    auto const second = contents(folder / "out.pbrt");
     Scene const again = read_scene(folder / "out.pbrt");
     CHECK(hash(again) == hash(s));
-    CHECK(contents(folder / "out.pbrt").size() == first.size());
+    write_pbrt(again, folder / "out.pbrt");
+    CHECK(contents(folder / "out.pbrt") == second);
 }
 
 TEST_CASE("every kind of settings is read as what was written") {
