@@ -5,8 +5,8 @@
 
 namespace nephroid {
 
-// Inverting twice does not give back the same bits. Where it does not, the matrix itself is kept as a coordinate system, and the
-// parameter "inverse" (ours) names it.
+// Inverting twice does not give back the same bits. Where it does not, the matrix itself is kept as a
+// coordinate system, and the parameter "inverse" (ours) names it.
 std::string Writer::inverse_transform(ParamText& p, Mat4 const& m, std::string const& name) const {
     if (is_identity(m)) return {};
     auto const back = inverse(m);

@@ -10,7 +10,8 @@ namespace nephroid {
 
 namespace fs = std::filesystem;
 
-/// Relative to the scene's folder where the two lie in one tree, so that they may be moved together; else absolute.
+/// Relative to the scene's folder where the two lie in one tree, so that they may be moved together; else
+/// absolute.
 std::string Writer::file_name(std::string const& path) const {
     std::error_code error;
     fs::path const file = fs::absolute(path, error).lexically_normal();

@@ -5,8 +5,9 @@
 
 namespace nephroid {
 
-/// `scene`, which validate() has passed, with the nearest thing of pbrt-v4's in place of what is ours alone; its notes say what was
-/// replaced or left out. Groups that pbrt could not instance (of instances, or that emit) are taken apart.
+/// `scene`, which validate() has passed, with the nearest thing of pbrt-v4's in place of what is ours
+/// alone; its notes say what was replaced or left out. Groups that pbrt could not instance (of instances,
+/// or that emit) are taken apart.
 Scene portable_scene(Scene scene);
 
 // Its parts.

@@ -10,7 +10,8 @@ namespace nephroid {
 
 namespace {
 
-/// The luminous flux (lm): the trapezoid rule in the horizontal angle, and in the vertical one between two cosines.
+/// The luminous flux (lm): the trapezoid rule in the horizontal angle, and in the vertical one between two
+/// cosines.
 float flux(IntensityTable const& t) {
     std::size_t const rows = t.vertical.size();
     double sum = 0;

@@ -37,7 +37,8 @@ class NewFolder {
 }  // namespace
 
 SceneText pbrt_text(Scene const& scene, std::filesystem::path const& path, WriteOptions const& options) {
-    // What nobody can see is no reason to refuse a scene; it stays in the text all the same, for the text to be of that scene.
+    // What nobody can see is no reason to refuse a scene; it stays in the text all the same, for the text
+    // to be of that scene.
     Scene visible = scene;
     drop_degenerate(visible);
     validate(visible);

@@ -1,4 +1,5 @@
-// Writes a Scene in pbrt-v4's language, in the order in which pbrt reads: settings, camera, textures, materials, objects, world.
+// Writes a Scene in pbrt-v4's language, in the order in which pbrt reads: settings, camera, textures,
+// materials, objects, world.
 #pragma once
 
 #include "text.h"
@@ -46,7 +47,8 @@ class Writer {
     /// A parameter of a texture: of the texture's own type.
     void input(ParamText& p, std::string_view name, TextureId id, bool spectra, SpectrumRole role,
                float otherwise, SourceLocation where);
-    /// The current transform whose inverse is `m`, for what is written next; adds "inverse" where it is needed.
+    /// The current transform whose inverse is `m`, for what is written next; adds "inverse" where it is
+    /// needed.
     std::string inverse_transform(ParamText& p, Mat4 const& m, std::string const& name) const;
     void mapping(ParamText& p, TextureMapping const& m);
 
