@@ -52,6 +52,10 @@ struct PhotonsOptions : SettingOptions {
     std::uint64_t pass = 0;
     bool quiet = false;
 };
+struct ConvertOptions : SettingOptions {
+    std::string scene, output;
+    bool portable = false, quiet = false;
+};
 struct InfoOptions {
     std::string scene;
     bool json = false;
@@ -69,6 +73,7 @@ struct CompareOptions {
 
 // Each returns an exit code; they throw Error.
 int run(RenderOptions const& o);
+int run(ConvertOptions const& o);
 int run(InfoOptions const& o);
 int run(MergeOptions const& o);
 int run(CompareOptions const& o);

@@ -79,6 +79,7 @@ int run(InfoOptions const& o) {
     if (o.json) {
         nlohmann::json j;
         j["scene_hash"] = world.scene_hash();
+        j["settings_hash"] = hash(settings);
         j["resolution"] = {settings.film.resolution.x, settings.film.resolution.y};
         j["camera"] = name_of(s.camera.kind);
         j["integrator"] = name_of(settings.integrator);
