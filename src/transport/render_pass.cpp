@@ -1,6 +1,8 @@
 #include "transport/render_pass.h"
 
+#include "camera_sample.h"
 #include "light_path_image.h"
+#include "path_trace.h"
 #include "photon_maps.h"
 #include "photon_plan.h"
 #include "scene/match.h"
@@ -103,11 +105,9 @@ Wavelengths RenderJob::pass_wavelengths(std::uint64_t i) const {
     return Wavelengths::spectral(sampler.next_1d());
 }
 
-namespace {
-
-/// One camera sample: the light seen, by class, as the sensor has it.
 bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y, std::uint64_t pass,
-                       std::uint64_t sample, NearestPhotons& nearest, Film& film, RayStats& stats) {
+                       std::uint64_t sample, NearestPhotons& nearest, Film& film, RayStats& stats,
+                       PathTrace* trace) {
     Settings const& settings = job.settings();
     bool const wants_aovs = film.has_aovs();
     // The pixel's own name, whatever the crop window or the resolution.
@@ -122,8 +122,8 @@ bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y,
     Wavelengths const lambda = job.prepares()                     ? job.pass_wavelengths(pass)
                                : settings.color == ColorMode::Rgb ? Wavelengths::rgb()
                                                                   : Wavelengths::spectral(sampler.next_1d());
-    CameraRay const camera =
-        job.camera().ray(Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
+    Vec2 const at = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset;
+    CameraRay const camera = job.camera().ray(at, lens);
     PathContext c{job,
                   job.world(),
                   lambda,
@@ -133,6 +133,8 @@ bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y,
                   lights_of(settings.integrator),
                   work.photons.get(),
                   &nearest};
+    c.trace = trace;
+    if (trace) trace->begins(c, at, camera);
     AovSample aov;
     SeenLight const seen = match(
         settings.integrator, [](LightPathIntegrator const&) { return SeenLight{}; },
@@ -142,11 +144,10 @@ bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y,
     Vec3 const value =
         c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
                   : sensor_value(job, seen, camera.weight, lambda, wants_aovs ? &aov.light : nullptr);
+    if (trace) trace->ends(seen, value, f.weight);
     if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
     return film.add(x, y, value, f.weight);
 }
-
-}  // namespace
 
 std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
                           Film& film, RayStats& stats) {
@@ -169,7 +170,8 @@ std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const
         for (int x = tile.x0; x < tile.x1; ++x)
             for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass)
                 for (std::uint64_t k = pass * samples; k < (pass + 1) * samples; ++k)
-                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats)) ++dropped;
+                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats, nullptr))
+                        ++dropped;
     return dropped;
 }
 
