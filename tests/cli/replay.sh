@@ -30,8 +30,8 @@ run 0 render room.pbrt --replay 5,20,18 --color rgb
 prints "pass 5, pixel 20,18 of 40x30: path, seed 0, rgb"
 prints "x0  0 1 -2.9  the camera"
 prints "x1 "
-prints "sphere, room.pbrt:21; dielectric, room.pbrt:20"
-prints 'box, room.pbrt:18; diffuse "wall", room.pbrt:15'
+prints "sphere, room.pbrt:20; dielectric, room.pbrt:19"
+prints 'box, room.pbrt:17; diffuse "wall", room.pbrt:13'
 prints "specular transmission"
 prints "asks for the light at"
 prints "the film adds "
