@@ -1,5 +1,5 @@
 // What the walk says of its path while it goes, where somebody asked (transport/replay.h). A render asks for nothing: each of these
-// calls is behind a test of one pointer.
+// calls is behind a test of one pointer, and cold, so that its code and its registers are out of the way.
 #pragma once
 
 #include "transport/replay.h"
@@ -11,23 +11,26 @@ class PathTrace {
   public:
     explicit PathTrace(PathRecord& record) : record_(record) {}
 
-    void begins(PathContext const& c, Vec2 film, CameraRay const& camera);
-    void ends(SeenLight const& seen, Vec3 value, float filter_weight);
+    [[gnu::cold]] void begins(PathContext const& c, Vec2 film, CameraRay const& camera);
+    [[gnu::cold]] void ends(SeenLight const& seen, Vec3 value, float filter_weight);
 
     // Along the ray.
-    void met_light(Walk const& walk, SurfaceHit const& hit, Spectrum seen, float weight, float light_pdf);
-    void met_sky(Walk const& walk, LightId light, Spectrum seen, float weight, float light_pdf);
-    void left(Walk const& walk);
-    void arrived(Walk const& walk, Vertex const& v);
+    [[gnu::cold]] void met_light(Walk const& walk, SurfaceHit const& hit, Spectrum seen, float weight,
+                                 float light_pdf);
+    [[gnu::cold]] void met_sky(Walk const& walk, LightId light, Spectrum seen, float weight, float light_pdf);
+    [[gnu::cold]] void left(Walk const& walk);
+    [[gnu::cold]] void arrived(Walk const& walk, Vertex const& v);
     // At the vertex.
-    void scatters(Walk const& walk, Vertex const& v);
-    void occluded(Walk const& walk, LightSample const& light);
+    [[gnu::cold]] void scatters(Walk const& walk, Vertex const& v);
+    [[gnu::cold]] void occluded(Walk const& walk, LightSample const& light);
     /// `direct` is without the walk's beta.
-    void lit(Walk const& walk, LightSample const& light, Spectrum direct, float weight, float passing);
+    [[gnu::cold]] void lit(Walk const& walk, LightSample const& light, Spectrum direct, float weight,
+                           float passing);
     /// No direction came out.
-    void absorbed(Walk const& walk);
-    void scattered(PathContext const& c, Walk const& walk, Vertex const& v, BsdfSample const& s, Vec3 wi);
-    void chance(std::uint32_t vertex, float survival, bool died);
+    [[gnu::cold]] void absorbed(Walk const& walk);
+    [[gnu::cold]] void scattered(PathContext const& c, Walk const& walk, Vertex const& v, BsdfSample const& s,
+                                 Vec3 wi);
+    [[gnu::cold]] void chance(std::uint32_t vertex, float survival, bool died);
 
   private:
     /// The vertex of that number: the last one that has it.
