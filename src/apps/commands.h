@@ -38,6 +38,7 @@ struct RenderOptions : SettingOptions {
     std::string scene;
     std::vector<std::string> outputs;
     std::string time, passes, checkpoint, resume, log, stats, memory_limit;
+    std::string replay;  // pass,x,y
     OverlayOptions overlay;
     int threads = 0;
     float exposure = 0;

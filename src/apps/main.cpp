@@ -116,6 +116,11 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
                    "refuse to begin what needs more memory: 8G, 500M; default: what the machine has left");
     app.add_option("--stats", o.stats, "write statistics as JSON to this file");
     declare_overlay(app, o.overlay);
+    app.add_option(
+        "--replay", o.replay,
+        "pass,x,y: print the path of that pixel's sample of that pass, vertex by vertex; with -o path.svg "
+        "drawn from the side and from above, with -o path.json for programs, and over pictures, which are "
+        "then rendered too");
     return &app;
 }
 
@@ -231,6 +236,7 @@ int main(int argc, char** argv) {
         "  nephroid render scene.pbrt --integrator sppm --spp 64     # caustics by photons\n"
         "  nephroid photons scene.pbrt -o photons.ply                # to look at\n"
         "  nephroid convert scene.pbrt other.pbrt --portable         # to ask another renderer\n"
+        "  nephroid render scene.pbrt --replay 7,120,80 -o path.svg  # what pass 7 did in pixel 120,80\n"
         "Exit codes: 0 good, 1 internal error, 2 bad input or usage, 3 a limit was hit, 4 I/O, 5 interrupted "
         "but resumable,\n"
         "6 finished but samples that were not finite had to be dropped.");

@@ -171,6 +171,18 @@ void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
     lab.page.for_browsers(links);
 }
 
+Picture over(Image const& marks, Picture under) {
+    std::size_t i = 0;
+    for (int y = 0; y < under.height; ++y)
+        for (int x = 0; x < under.width; ++x, ++i)
+            for (int c = 0; c < 3; ++c) {
+                double& v = under.rgb[i][static_cast<std::size_t>(c)];
+                v = v * (1 - static_cast<double>(marks.get(x, y, 3))) +
+                    static_cast<double>(marks.get(x, y, c));
+            }
+    return under;
+}
+
 double exposure_for(Picture const& p, double share) {
     std::vector<double> values;
     for (auto const& c : p.rgb) values.push_back(std::max({c[0], c[1], c[2]}));

@@ -10,6 +10,7 @@ namespace {
 using namespace nephroid::experiment;
 
 constexpr Section kSections[] = {
+    {"Figure 1. A path", path_schematic},
     {"Figure 16. Whitted's tracer and path tracing", whitted_and_paths},
     {"Figures 17 to 19. Photons, their paths, and normals", photons_and_paths},
     {"Figures 20 to 22. The maps, seen", estimates_shown},

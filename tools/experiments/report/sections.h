@@ -3,4 +3,8 @@
 
 #include "lab.h"
 
-namespace nephroid::experiment {}  // namespace nephroid::experiment
+namespace nephroid::experiment {
+
+void path_schematic(Lab const& lab);
+
+}  // namespace nephroid::experiment
