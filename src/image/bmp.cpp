@@ -42,8 +42,12 @@ Header read_header(Cursor& in, std::string const& path) {
     std::uint32_t const size = little_endian(in, 4);
     bool const core = size == 12;  // OS/2's
     if (!core && (size < 40 || size > 1024)) fail(path, "is no BMP file, or a damaged one");
-    h.width = core ? little_endian(in, 2) : static_cast<std::int32_t>(little_endian(in, 4));
-    h.height = core ? little_endian(in, 2) : static_cast<std::int32_t>(little_endian(in, 4));
+    auto const side = [&] {
+        if (core) return std::int64_t{little_endian(in, 2)};
+        return std::int64_t{static_cast<std::int32_t>(little_endian(in, 4))};
+    };
+    h.width = side();
+    h.height = side();
     if (h.height < 0) h.top_to_bottom = true, h.height = -h.height;
     in.take(2);  // planes
     h.bits = static_cast<int>(little_endian(in, 2));

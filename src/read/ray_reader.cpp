@@ -242,7 +242,7 @@ Scene RayReader::finish() {
                 where,
                 "ambient differs from diffuse: the sky of ambient_light is reflected as \"diffuse\" says");
     auto& settings = context_.scene.settings;
-    settings.integrator = PathIntegrator{};
+    settings.integrator = PathIntegrator{.max_depth = 10};  // glass takes many
     settings.color = ColorMode::Rgb;  // the format means red, green and blue by its numbers
     settings.color_given = true;
     settings.spp = 64;
