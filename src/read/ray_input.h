@@ -58,8 +58,8 @@ class RayInput {
         auto const open = here();
         need('(');
         while (!take_if(')')) {
-            if (peek().kind == RayToken::Kind::End) not_closed(open, '(');
             item();
+            if (peek().kind == RayToken::Kind::End) not_closed(open, '(');
             if (!peek().is(')')) need(',');
         }
     }
