@@ -28,8 +28,9 @@ Vec3 seen(std::string const& text, std::uint64_t passes = 64) {
         ray_scene("camera { position = (0,0,5); viewdir = (0,0,-1); updir = (0,1,0); fov = 0.02 }\n" + text);
     scene.settings.film.resolution = {1, 1};
     scene.settings.filter = BoxFilter{};
+    Settings const settings = scene.settings;
     World const world = compile(std::move(scene));
-    Film const film = rendered(RenderJob(world, world.settings()), {0, passes});
+    Film const film = rendered(RenderJob(world, settings), {0, passes});
     auto const& p = film.pixel(0, 0);
     CHECK(film.dropped() == 0);
     auto const mean = [&](std::size_t c) { return static_cast<float>(p.rgb[c] / p.weight); };
