@@ -249,7 +249,7 @@ int main(int argc, char** argv) {
     PhotonsOptions photons;
     ConvertOptions convert;
     commands.emplace_back(
-        declare(*app.add_subcommand("render", "render a scene (.pbrt, .pbrt.gz, .ply, .obj)"), render),
+        declare(*app.add_subcommand("render", "render a scene (.pbrt, .ray, .ply, .obj; also .gz)"), render),
         [&] { return run(render); });
     commands.emplace_back(
         declare(
