@@ -20,6 +20,8 @@ struct Lab {
         return quick ? std::max<std::uint64_t>(4, n / 32) : n;
     }
     [[nodiscard]] int pixels(int n) const { return quick ? std::max(6, n / 6) : n * enlarge; }
+    /// Of pictures that are measured and not shown.
+    [[nodiscard]] int measured(int n) const { return quick ? std::max(6, n / 6) : n; }
     [[nodiscard]] int seeds(int n) const { return quick ? 2 : n; }
 };
 

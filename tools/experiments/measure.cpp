@@ -220,6 +220,25 @@ std::vector<Estimate> means_by_pixel(Setup const& setup, std::string const& dire
     return e;
 }
 
+std::array<Estimate, 3> means_by_channel(Setup const& setup, std::string const& directives,
+                                         std::uint64_t passes, int seeds, std::vector<bool> const& pixels) {
+    std::array<Spread, 3> spread;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        Picture const p = render_picture(setup, directives, passes, static_cast<std::uint64_t>(seed));
+        std::array<double, 3> sum{};
+        double count = 0;
+        for (std::size_t i = 0; i < p.rgb.size(); ++i) {
+            if (!pixels.empty() && !pixels[i]) continue;
+            count += 1;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += p.rgb[i][c];
+        }
+        for (std::size_t c = 0; c < 3; ++c) spread[c].add(sum[c] / count);
+    }
+    std::array<Estimate, 3> e;
+    for (std::size_t c = 0; c < 3; ++c) e[c] = {spread[c].mean(), spread[c].error()};
+    return e;
+}
+
 double log_log_slope(std::span<double const> x, std::span<double const> y) {
     double n = 0;
     double sx = 0;

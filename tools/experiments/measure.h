@@ -84,6 +84,11 @@ struct Estimate {
 std::vector<Estimate> means_by_pixel(Setup const& setup, std::string const& directives, std::uint64_t passes,
                                      int seeds);
 
+/// Of these pixels together, or of all; each channel for itself.
+std::array<Estimate, 3> means_by_channel(Setup const& setup, std::string const& directives,
+                                         std::uint64_t passes, int seeds,
+                                         std::vector<bool> const& pixels = {});
+
 /// Slope of log y over log x by least squares; points with y = 0 do not count.
 double log_log_slope(std::span<double const> x, std::span<double const> y);
 

@@ -56,9 +56,18 @@ std::uint64_t paths_that_store(Setup const& setup, std::string const& directives
 }
 
 Setup sized_file(std::string const& name, int width, int height) {
-    Setup setup = prepare_file(name);
-    setup.settings.film.resolution = {width, height};
+    Setup setup = sized(prepare_file(name), width, height);
     setup.settings.color = ColorMode::Rgb;
+    return setup;
+}
+
+Setup sized(Setup setup, int width, int height) {
+    setup.settings.film.resolution = {width, height};
+    return setup;
+}
+
+Setup at_centres(Setup setup) {
+    setup.settings.filter = BoxFilter{{0.001f, 0.001f}};  // there is no smaller one
     return setup;
 }
 

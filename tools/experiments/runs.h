@@ -35,6 +35,9 @@ std::uint64_t paths_that_store(Setup const& setup, std::string const& directives
 
 /// A scene of scenes/ in rgb mode, at this size: what is compared here is how light is found, not how colours are.
 Setup sized_file(std::string const& name, int width, int height);
+Setup sized(Setup setup, int width, int height);
+/// A pixel is its centre: all that varies is the light.
+Setup at_centres(Setup setup);
 /// The Cornell box with what follows in it, in rgb mode.
 Setup box_with(std::string const& contents, int pixels);
 /// Only the pixels [x0, x1) x [y0, y1), in shares of the picture.

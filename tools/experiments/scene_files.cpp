@@ -26,6 +26,13 @@ Setup faithful(std::string const& pbrt, std::filesystem::path const& folder) {
 
 Setup prepare_file(std::string const& name) { return compiled(read_scene(scenes_folder() / name)); }
 
+Setup prepare_noted(std::string const& name, std::string const& note) {
+    Scene scene = read_scene(scenes_folder() / name);
+    if (scene.notes.empty()) throw Error(ErrorKind::Input, name + ": no note says: " + note);
+    std::erase_if(scene.notes, [&](auto const& n) { return n.text.find(note) != std::string::npos; });
+    return compiled(std::move(scene));
+}
+
 std::string cornell(int pixels) {
     return fmt::format(
         "Film \"rgb\" \"integer xresolution\" {0} \"integer yresolution\" {0}\n"

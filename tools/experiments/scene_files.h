@@ -15,6 +15,8 @@ std::filesystem::path scenes_folder();
 Setup faithful(std::string const& pbrt, std::filesystem::path const& folder);
 /// The same for a file of scenes/.
 Setup prepare_file(std::string const& name);
+/// … all of whose notes, of which there is one at least, say this.
+Setup prepare_noted(std::string const& name, std::string const& note);
 
 /// The empty Cornell box with its camera (folder: scenes_folder()), in what was measured: mm.
 std::string cornell(int pixels);

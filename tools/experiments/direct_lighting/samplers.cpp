@@ -1,10 +1,10 @@
 // What the points alone change (Figure 11 of the report).
+#include "points_shown.h"
 #include "sections.h"
 
 #include "closed_form.h"
 #include "measure.h"
 #include "plot.h"
-#include "sampling/path_sampler.h"
 #include "scenes.h"
 
 #include <fmt/format.h>
@@ -29,36 +29,6 @@ std::vector<Points> const& kinds() {
         {"stratified, 16 × 16", R"(Sampler "stratified" "integer xsamples" 16 "integer ysamples" 16)"},
         {"Sobol'", R"(Sampler "zsobol")"}};
     return all;
-}
-
-PointPanel panel(std::string const& title, Sequence const& sequence, int cells) {
-    PointPanel p{title, {}, cells};
-    for (std::uint64_t pass = 0; pass < 64; ++pass) {
-        PathSampler sampler(sequence, 0, 0, pass);
-        sampler.at(0);
-        p.points.push_back(sampler.next_2d());
-    }
-    return p;
-}
-
-void points(Page& page) {
-    auto const sequence = [](SequenceKind kind, std::uint32_t strata) {
-        Sequence q;
-        q.kind = kind, q.x_strata = q.y_strata = strata;
-        return q;
-    };
-    page.save("points.svg",
-              point_plot({panel("independent", sequence(SequenceKind::Independent, 1), 1),
-                          panel("quadrant (16 × 2 × 2)", sequence(SequenceKind::Stratified, 2), 2),
-                          panel("stratified 8 × 8", sequence(SequenceKind::Stratified, 8), 8),
-                          panel("Sobol', Owen's scramble", sequence(SequenceKind::Sobol, 1), 8)}));
-    page.image("points.svg", "64 points of the unit square by four samplers");
-    page.text(
-        "The first 64 points of one two-dimensional draw of one pixel, as `PathSampler` gives them (the "
-        "report's Figure 11 is "
-        "the first and the third panel). The quadrant sampler puts each four points into four quadrants; 8 × "
-        "8 strata hold "
-        "one point each; so do all 8 × 8 cells of the Sobol' points, and all 64 × 1, 32 × 2 … as well.");
 }
 
 void errors(Lab const& lab, std::string const& title, std::string const& file, std::string const& what,
@@ -94,7 +64,7 @@ void errors(Lab const& lab, std::string const& title, std::string const& file, s
 
 void samplers(Lab const& lab) {
     Page& page = lab.page;
-    points(page);
+    points_shown(page);
     std::string code =
         "Integrator \"direct\" \"string strategy\" \"light\" \"string shapesampling\" \"area\"\n";
     for (Points const& k : kinds()) code += k.directive + "\n";

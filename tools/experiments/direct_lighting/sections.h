@@ -6,13 +6,11 @@
 namespace nephroid::experiment {
 
 void soft_shadows(Lab const& lab);
-void naive_or_direct(Lab const& lab);
 void box_light(Lab const& lab);
 void strategies(Lab const& lab);
 void samplers(Lab const& lab);
 void light_shapes(Lab const& lab);
 void many_lights(Lab const& lab);
 void picture_light(Lab const& lab);
-void hemispheres(Lab const& lab);
 
 }  // namespace nephroid::experiment

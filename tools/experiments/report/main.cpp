@@ -11,10 +11,19 @@ using namespace nephroid::experiment;
 
 constexpr Section kSections[] = {
     {"Figure 1. A path", path_schematic},
+    {"Figure 2. Three spheres under a uniform sky", three_spheres},
+    {"Figure 3. Light from interreflection alone", interreflection},
+    {"Figure 4. Shapes that shine", emissive_shapes},
+    {"The furnace", furnace_table},
+    {"Figure 5. Naive, or asking the light", naive_or_direct},
+    {"Figure 6. Soft shadows", soft_shadow_trials},
+    {"Figures 7 and 8. A box light, wrong and right", box_light_wrong_and_right},
+    {"Figure 11. Unstratified and stratified points", stratified_points},
     {"Figure 16. Whitted's tracer and path tracing", whitted_and_paths},
     {"Figures 17 to 19. Photons, their paths, and normals", photons_and_paths},
     {"Figures 20 to 22. The maps, seen", estimates_shown},
     {"Figures 23 to 25. Spheres, mirror boxes, water", pictures_of_the_report},
+    {"Uniform hemisphere or cosine, which was left to do", hemispheres_shown},
 };
 
 void introduction(Page& page) {

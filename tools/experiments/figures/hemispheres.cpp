@@ -1,5 +1,5 @@
 // Directions uniform over the hemisphere against directions by the cosine, measured and in theory.
-#include "sections.h"
+#include "figures.h"
 
 #include "measure.h"
 #include "scenes.h"
@@ -27,7 +27,7 @@ void hemispheres(Lab const& lab) {
     Page& page = lab.page;
     page.text("A diffuse floor under the open sky, light found by scattering alone:");
     page.code(direct("uniform|cosine"));
-    int const n = lab.pixels(32);
+    int const n = lab.measured(32);
     std::string const floor = scenes::floor_view(n, n, scenes::Pixels::Points, -0.05f, 0.05f, -0.05f, 0.05f) +
                               scenes::matte(0.5f) + scenes::floor();
     int const seeds = lab.seeds(4);

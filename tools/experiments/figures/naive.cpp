@@ -1,9 +1,8 @@
 // Light found by chance alone against light that is asked (Figure 5 of the report).
-#include "sections.h"
+#include "figures.h"
+#include "runs.h"
 
-#include "measure.h"
 #include "plot.h"
-#include "scenes.h"
 #include "sheet.h"
 
 #include <fmt/format.h>
@@ -23,16 +22,7 @@ std::vector<Way> ways() {
             {"both, MIS", path + "\"bool samplelights\" true" + sampler}};
 }
 
-Setup room(int width, int height) {
-    return prepare(
-        scenes::view(width, height, scenes::Pixels::Whole, {0, -2.9f, 1.4f}, {0, 0, 1.1f}, 62) +
-        scenes::matte(0.5f) + scenes::room({-2, -3, 0}, {2, 2, 3}) + scenes::square_light(1, 3, 2.99f) +
-        scenes::matte(0.5f) +
-        "AttributeBegin\nTranslate -0.7 0.6 0.6\nShape \"sphere\" \"float radius\" 0.6\nAttributeEnd\n"
-        "AttributeBegin\nTranslate 0.8 0.2 0.5\nRotate 25 0 0 1\nShape \"box\" \"point3 lo\" [ -0.4 -0.4 "
-        "-0.5 ] "
-        "\"point3 hi\" [ 0.4 0.4 0.5 ]\nAttributeEnd\n");
-}
+Setup room(int width, int height) { return sized_file("report/05-naive.pbrt", width, height); }
 
 }  // namespace
 
@@ -60,12 +50,12 @@ void naive_or_direct(Lab const& lab) {
     columns[2] = "both, mis";
     row.pictures.push_back(render_picture(
         large, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(256), 1));
-    columns.emplace_back(lab.quick ? "8" : "256 samples");
+    columns.push_back(fmt::format("{} samples", lab.passes(256)));
     row.exposure = exposure_for(row.pictures.back(), 0.90);
     show_sheet(lab, "naive.png", "The room at 16 samples: naive, lights sampled, both; and the limit",
                columns, {row});
 
-    Setup const small = room(lab.pixels(48), lab.pixels(36));
+    Setup const small = room(lab.measured(48), lab.measured(36));
     Reference const reference = reference_by_samples(
         small, "Integrator \"path\" \"string roulette\" \"none\"\nSampler \"zsobol\"", lab.passes(2048));
     std::vector<int> const counts{1, 2, 4, 8, 16, 32, 64, 128, 256};
