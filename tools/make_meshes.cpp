@@ -3,6 +3,8 @@
 // sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256.
 // Lengths: centimetres for the cup, metres for the water, free for the rest. z is up.
 
+#include "creature.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,6 +22,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -367,6 +370,9 @@ int main(int argc, char** argv) try {
     write(dir / "meshes/juice.ply", ply(juice(), Format::Binary));
     write(dir / "meshes/goblet.ply", ply(goblet(), Format::Binary));
     write(dir / "meshes/wine.ply", ply(wine(), Format::Binary));
+    CreatureMesh made = creature();
+    write(dir / "meshes/creature.ply",
+          ply({std::move(made.p), std::move(made.n), {}, std::move(made.triangles)}, Format::Binary));
     write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
     write(dir / "textures/chart.tga", chart());
     return 0;
