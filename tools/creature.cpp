@@ -211,6 +211,11 @@ class Net {
         for (auto const& [edge, count] : edges)
             if (count != 1 || !edges.contains({edge.second, edge.first}))
                 throw std::logic_error("the creature's surface is not closed");
+        for (auto const& t : mesh_.triangles) {
+            auto const p = [&](std::size_t c) { return mesh_.p[static_cast<std::size_t>(t[c])]; };
+            if (glm::dot(glm::cross(p(1) - p(0), p(2) - p(0)), mesh_.n[static_cast<std::size_t>(t[0])]) <= 0)
+                throw std::logic_error("a triangle of the creature faces inwards");
+        }
     }
 
     Field field_;

@@ -5,7 +5,8 @@
 
 namespace nephroid::experiment {
 
-void whitted_and_paths(Lab const& lab);       // Figure 16
+void mirrors_and_glass(Lab const& lab);       // Figures 9 and 10
+void whitted_and_paths(Lab const& lab);       // 16
 void photons_and_paths(Lab const& lab);       // 17 to 19
 void estimates_shown(Lab const& lab);         // 20 to 22
 void pictures_of_the_report(Lab const& lab);  // 23 to 25

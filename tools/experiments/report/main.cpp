@@ -10,6 +10,9 @@ namespace {
 using namespace nephroid::experiment;
 
 constexpr Section kSections[] = {
+    {"Figures 9 and 10. Mirrors and glass", mirrors_and_glass},
+    {"Figures 12 and 13. A figure as mirror and as glass", creature_in_the_box},
+    {"Figures 14 and 15. A caustic, and one from a faulty basis", faulty_basis},
     {"Figure 16. Whitted's tracer and path tracing", whitted_and_paths},
     {"Figures 17 to 19. Photons, their paths, and normals", photons_and_paths},
     {"Figures 20 to 22. The maps, seen", estimates_shown},

@@ -3,4 +3,9 @@
 
 #include "lab.h"
 
-namespace nephroid::experiment {}  // namespace nephroid::experiment
+namespace nephroid::experiment {
+
+void creature_in_the_box(Lab const& lab);  // Figures 12 and 13
+void faulty_basis(Lab const& lab);         // 14 and 15
+
+}  // namespace nephroid::experiment
