@@ -83,7 +83,7 @@ std::vector<Limb> limbs() {
                            {{-0.98, 0.03, 0.51}, {-0.4, -0.05, 0.92}, 0.18},
                            {{-1.21, 0.12, 0.39}, {-0.3, -0.1, 0.95}, 0.14}}) {
         Vec3 const to = glm::normalize(s.to);
-        add(s.at - 0.05 * to, 0.30 * s.length, s.at + s.length * to, 0.026, 0.05);
+        add(s.at - 0.05 * to, 0.30 * s.length, s.at + s.length * to, 0.032, 0.05);
     }
     return l;
 }

@@ -38,6 +38,7 @@ struct RenderOptions : SettingOptions {
     std::string scene;
     std::vector<std::string> outputs;
     std::string time, passes, checkpoint, resume, log, stats, memory_limit;
+    std::string replay;  // pass,x,y
     OverlayOptions overlay;
     int threads = 0;
     float exposure = 0;
@@ -51,6 +52,10 @@ struct PhotonsOptions : SettingOptions {
     std::optional<int> count, paths;
     std::uint64_t pass = 0;
     bool quiet = false;
+};
+struct ConvertOptions : SettingOptions {
+    std::string scene, output;
+    bool portable = false, quiet = false;
 };
 struct InfoOptions {
     std::string scene;
@@ -69,6 +74,7 @@ struct CompareOptions {
 
 // Each returns an exit code; they throw Error.
 int run(RenderOptions const& o);
+int run(ConvertOptions const& o);
 int run(InfoOptions const& o);
 int run(MergeOptions const& o);
 int run(CompareOptions const& o);

@@ -16,36 +16,6 @@ namespace nephroid::cli {
 
 namespace {
 
-std::string name_of(CameraKind const& c) {
-    return match(
-        c, [](PerspectiveCamera const&) { return "perspective"; },
-        [](OrthographicCamera const&) { return "orthographic"; },
-        [](SphericalCamera const&) { return "spherical"; });
-}
-std::string name_of(MaterialKind const& m) {
-    return match(
-        m, [](DiffuseMaterial const&) { return "diffuse"; },
-        [](DielectricMaterial const&) { return "dielectric"; },
-        [](ConductorMaterial const&) { return "conductor"; },
-        [](ThinDielectricMaterial const&) { return "thindielectric"; },
-        [](InterfaceMaterial const&) { return "interface"; }, [](MixMaterial const&) { return "mix"; },
-        [](CoatedDiffuseMaterial const&) { return "coateddiffuse"; },
-        [](CoatedConductorMaterial const&) { return "coatedconductor"; },
-        [](DiffuseTransmissionMaterial const&) { return "diffusetransmission"; },
-        [](MeasuredMaterial const&) { return "measured"; },
-        [](AshikhminShirleyMaterial const&) { return "ashikhminshirley"; },
-        [](PlasticMaterial const&) { return "plastic"; },
-        [](MetallicRoughnessMaterial const&) { return "metallicroughness"; });
-}
-std::string name_of(LightKind const& l) {
-    return match(
-        l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
-        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
-        [](GoniometricLight const&) { return "goniometric"; },
-        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; },
-        [](SunSkyLight const&) { return "sunsky"; });
-}
-
 template <class List>
 std::map<std::string, int> tally(List const& list) {
     std::map<std::string, int> counts;
@@ -79,6 +49,7 @@ int run(InfoOptions const& o) {
     if (o.json) {
         nlohmann::json j;
         j["scene_hash"] = world.scene_hash();
+        j["settings_hash"] = hash(settings);
         j["resolution"] = {settings.film.resolution.x, settings.film.resolution.y};
         j["camera"] = name_of(s.camera.kind);
         j["integrator"] = name_of(settings.integrator);

@@ -116,6 +116,11 @@ CLI::App const* declare(CLI::App& app, RenderOptions& o) {
                    "refuse to begin what needs more memory: 8G, 500M; default: what the machine has left");
     app.add_option("--stats", o.stats, "write statistics as JSON to this file");
     declare_overlay(app, o.overlay);
+    app.add_option(
+        "--replay", o.replay,
+        "pass,x,y: print the path of that pixel's sample of that pass, vertex by vertex; with -o path.svg "
+        "drawn from the side and from above, with -o path.json for programs, and over pictures, which are "
+        "then rendered too");
     return &app;
 }
 
@@ -155,6 +160,24 @@ CLI::App const* declare(CLI::App& app, PhotonsOptions& o) {
     declare_settings(app, o, "photonmap or sppm; a scene with another one is shot with photonmap's defaults");
     app.add_option("--memory-limit", o.memory_limit, "refuse to begin what needs more memory: 8G, 500M");
     app.add_flag("--quiet", o.quiet, "print errors and results only");
+    return &app;
+}
+
+CLI::App const* declare(CLI::App& app, ConvertOptions& o) {
+    app.add_option("scene", o.scene, "scene file")->required();
+    app.add_option("output", o.output,
+                   "the .pbrt file to write; large meshes and measured lamps go into a folder beside it, "
+                   "pictures stay where they are")
+        ->required();
+    app.add_flag("--portable", o.portable,
+                 "only what pbrt-v4 itself knows: what is nephroid's own is replaced by the nearest thing, "
+                 "and each "
+                 "replacement is said. Without it nothing is lost: the file renders to the same bits");
+    declare_settings(app, o, kIntegrators);
+    app.add_option("--spp", o.spp, "samples per pixel")->check(whole_number(1, kLargestInt));
+    app.add_option("--crop", o.crop, "x0,y0,x1,y1: render only these pixels");
+    app.add_flag("--aovs", o.aovs, "record layers (Film \"gbuffer\")");
+    app.add_flag("--quiet", o.quiet, "print errors and replacements only");
     return &app;
 }
 
@@ -212,6 +235,8 @@ int main(int argc, char** argv) {
         "  nephroid compare a.exr b.exr\n"
         "  nephroid render scene.pbrt --integrator sppm --spp 64     # caustics by photons\n"
         "  nephroid photons scene.pbrt -o photons.ply                # to look at\n"
+        "  nephroid convert scene.pbrt other.pbrt --portable         # to ask another renderer\n"
+        "  nephroid render scene.pbrt --replay 7,120,80 -o path.svg  # what pass 7 did in pixel 120,80\n"
         "Exit codes: 0 good, 1 internal error, 2 bad input or usage, 3 a limit was hit, 4 I/O, 5 interrupted "
         "but resumable,\n"
         "6 finished but samples that were not finite had to be dropped.");
@@ -222,8 +247,9 @@ int main(int argc, char** argv) {
     MergeOptions merge;
     CompareOptions compare;
     PhotonsOptions photons;
+    ConvertOptions convert;
     commands.emplace_back(
-        declare(*app.add_subcommand("render", "render a scene (.pbrt, .pbrt.gz, .ply, .obj)"), render),
+        declare(*app.add_subcommand("render", "render a scene (.pbrt, .ray, .ply, .obj; also .gz)"), render),
         [&] { return run(render); });
     commands.emplace_back(
         declare(
@@ -243,7 +269,12 @@ int main(int argc, char** argv) {
                 photons),
         [&] { return run(photons); });
 
-    std::vector<std::string> const names{"render", "info", "merge", "compare", "photons"};
+    commands.emplace_back(
+        declare(*app.add_subcommand("convert", "write a scene, of any kind that is read, as a pbrt-v4 file"),
+                convert),
+        [&] { return run(convert); });
+
+    std::vector<std::string> const names{"render", "info", "merge", "compare", "photons", "convert"};
     if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
         say("nephroid: \"{}\" is no command; did you mean \"{}\"? (nephroid --help lists them)\n", argv[1],
             nearest(argv[1], names));

@@ -4,6 +4,7 @@
 #include "render/render.h"
 #include "scene/match.h"
 #include "statistics.h"
+#include "transport/shooting.h"
 #include "world/estimate.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,9 @@ constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 190;
 
 /// A photon takes 48 bytes in a map, and 130 more while that is made (transport/photon_map.h). A path leaves two or three in the
 /// global map of a room whose walls give back 60 or 70 %, and one at most in the caustic map.
-constexpr std::uint64_t kGlobalPathBytes = 400, kCausticPathBytes = 160;
+constexpr std::uint64_t kPhotonBytes = 178, kGlobalPathBytes = 400, kCausticPathBytes = 160;
+/// Photons of a map are numbered in 32 bits; the pilot's count is off by a little.
+constexpr double kMostPhotons = 4e9;
 /// Light tracing sums in double, by classes of light where layers are wanted, in the pass and in the one before; and keeps the
 /// splats of 131072 paths, some each (transport/light_path_image.h).
 constexpr std::uint64_t kSplatPixelBytes = 48, kSplatPixelBytesAovs = 240, kSplatPathBytes = 200,
@@ -110,6 +113,19 @@ std::uint64_t photon_need(Settings const& settings) {
             return 0;
         }
     });
+}
+
+MemoryNeed refined(MemoryNeed need, RenderJob const& job) {
+    if (!job.photon_plan()) return need;
+    double const photons = expected_photons(job);
+    if (!(photons < kMostPhotons))
+        throw Error(
+            ErrorKind::Limit,
+            fmt::format(
+                "about {:.3g} photons a pass are more than a map can hold, 2^32; shoot fewer paths a pass "
+                "(photonsperiteration, indirectphotons, causticphotons) and render more passes",
+                photons));
+    return {pages(1), 0, need.film, static_cast<std::uint64_t>(photons) * kPhotonBytes};
 }
 
 MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs) {

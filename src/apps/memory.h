@@ -4,6 +4,7 @@
 
 #include "film/film.h"
 #include "scene/scene.h"
+#include "transport/render_pass.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,9 +21,13 @@ struct MemoryNeed {
 };
 /// All but the photons.
 MemoryNeed memory_need(Scene const& scene, std::array<int, 4> crop, bool aovs);
-/// What photons may take, by how many paths are shot in a pass: how many photons a path leaves is not known before. 0 for
-/// integrators that shoot none.
+/// What photons may take, by how many paths are shot in a pass, as a first guess: how many photons a path leaves is not known yet.
+/// 0 for integrators that shoot none.
 std::uint64_t photon_need(Settings const& settings);
+
+/// The same once the scene is compiled, when photons can be shot to see how many a path leaves. Throws Error(Limit) where a map would
+/// not hold them.
+MemoryNeed refined(MemoryNeed need, RenderJob const& job);
 
 /// "8G", "500M", "2GiB", "1000000" bytes. Throws Error(Input).
 std::uint64_t parse_bytes(std::string const& option, std::string const& text);

@@ -34,6 +34,36 @@ std::string name_of(Filter const& f) {
         [](LanczosSincFilter const&) { return "sinc"; });
 }
 
+std::string name_of(CameraKind const& c) {
+    return match(
+        c, [](PerspectiveCamera const&) { return "perspective"; },
+        [](OrthographicCamera const&) { return "orthographic"; },
+        [](SphericalCamera const&) { return "spherical"; });
+}
+std::string name_of(MaterialKind const& m) {
+    return match(
+        m, [](DiffuseMaterial const&) { return "diffuse"; },
+        [](DielectricMaterial const&) { return "dielectric"; },
+        [](ConductorMaterial const&) { return "conductor"; },
+        [](ThinDielectricMaterial const&) { return "thindielectric"; },
+        [](InterfaceMaterial const&) { return "interface"; }, [](MixMaterial const&) { return "mix"; },
+        [](CoatedDiffuseMaterial const&) { return "coateddiffuse"; },
+        [](CoatedConductorMaterial const&) { return "coatedconductor"; },
+        [](DiffuseTransmissionMaterial const&) { return "diffusetransmission"; },
+        [](MeasuredMaterial const&) { return "measured"; },
+        [](AshikhminShirleyMaterial const&) { return "ashikhminshirley"; },
+        [](PlasticMaterial const&) { return "plastic"; },
+        [](MetallicRoughnessMaterial const&) { return "metallicroughness"; });
+}
+std::string name_of(LightKind const& l) {
+    return match(
+        l, [](PointLight const&) { return "point"; }, [](SpotLight const&) { return "spot"; },
+        [](DistantLight const&) { return "distant"; }, [](InfiniteLight const&) { return "infinite"; },
+        [](GoniometricLight const&) { return "goniometric"; },
+        [](ProjectionLight const&) { return "projection"; }, [](MeasuredLight const&) { return "measured"; },
+        [](SunSkyLight const&) { return "sunsky"; });
+}
+
 namespace {
 
 std::string name_of(Kernel k) {

@@ -13,6 +13,9 @@ namespace nephroid::cli {
 std::string name_of(Integrator const& integrator);
 std::string name_of(Sampler const& sampler);
 std::string name_of(Filter const& filter);
+std::string name_of(CameraKind const& camera);
+std::string name_of(MaterialKind const& material);
+std::string name_of(LightKind const& light);
 /// Of an integrator that shoots photons, by the keys of --set; empty for others.
 SettingWords photon_words(Integrator const& integrator);
 /// What a film says about its render, so that another one can be told apart by option and value.

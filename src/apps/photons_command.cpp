@@ -112,6 +112,7 @@ int run(PhotonsOptions const& o) {
     scene.settings = settings;
     World const world = compile(std::move(scene));
     RenderJob const job(world, settings);
+    if (need.photons > 0) check_memory(refined(need, job), memory_limit);
     if (!o.paths) {
         write_photons(job, o, o.outputs.front());
     } else {

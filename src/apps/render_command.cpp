@@ -10,11 +10,13 @@
 #include "names.h"
 #include "outputs.h"
 #include "overrides.h"
+#include "path_plot.h"
 #include "photon_overlay.h"
 #include "photon_statistics.h"
 #include "progress.h"
 #include "read/read.h"
 #include "render/render.h"
+#include "replay_option.h"
 #include "signals.h"
 #include "statistics.h"
 #include "targets.h"
@@ -184,7 +186,9 @@ int run(RenderOptions const& o) {
     };
     bool const json = o.log == "json";
     Log log(json, o.quiet);
-    check_outputs(o.outputs);
+    std::optional<ReplayRequest> const asked = replay_request(o);
+    std::vector<std::string> outputs = asked ? asked->pictures : o.outputs;
+    check_outputs(outputs);
     if (!o.checkpoint.empty()) check_target("--checkpoint", o.checkpoint, true);
     if (!o.stats.empty()) check_target("--stats", o.stats);
     std::optional<double> const seconds = o.time.empty() ? std::nullopt : std::optional(seconds_of(o.time));
@@ -193,15 +197,17 @@ int run(RenderOptions const& o) {
     Scene scene = read_scene(o.scene);
     Settings const settings = settings_of(o, scene);
     PassRange const passes = passes_of(o, settings);
-    std::vector<std::string> outputs = o.outputs;
-    if (outputs.empty()) {
+    if (asked) check_replay(*asked, settings);
+    if (outputs.empty() && !asked) {
         // Like pbrt: relative to the folder where the program was started.
         outputs.push_back(settings.film.filename.empty() ? fs::path(o.scene).stem().string() + ".exr"
                                                          : settings.film.filename);
         check_outputs(outputs);
     }
     check_output_size(outputs, crop_of(settings));
-    check_files(o, outputs, scene);
+    std::vector<std::string> written = outputs;
+    if (asked) written.insert(written.end(), asked->files.begin(), asked->files.end());
+    check_files(o, written, scene);
     MemoryNeed need = memory_need(scene, crop_of(settings), settings.film.aovs);
     need.photons = photon_need(settings);
     check_memory(need, memory_limit);
@@ -210,6 +216,12 @@ int run(RenderOptions const& o) {
     scene.settings = settings;  // so that overrides are validated like the rest
     World const world = compile(std::move(scene));
     RenderJob const job(world, settings);
+    std::optional<PathRecord> path;
+    if (asked) {
+        path = run_replay(*asked, job);
+        if (outputs.empty()) return is_finite(path->value) ? kGood : kTainted;
+    }
+    check_memory(refined(need, job), memory_limit);
     Film film = job.make_film();
     film.describe(words_of(settings));
     if (!o.resume.empty()) resume(o.resume, film);
@@ -290,6 +302,10 @@ int run(RenderOptions const& o) {
     develop.in_a_hurry = interrupted;
     develop.metadata = metadata(job, film, stats);
     Image overlay;
+    if (path && pictures) {
+        overlay = draw_path(job, *path);
+        develop.over = &overlay;
+    }
     if (draws(o.overlay) && pictures && !interrupted) {
         try {
             overlay = draw_photons(RenderJob(world, photon_settings(settings)), passes.begin, o.overlay);

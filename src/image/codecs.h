@@ -25,6 +25,7 @@ void check_size(std::string const& path, std::int64_t width, std::int64_t height
 Image decode_png(Bytes file, std::string const& path, std::optional<Encoding> override_encoding);
 Image decode_jpeg(Bytes file, std::string const& path, std::optional<Encoding> override_encoding);
 Image decode_tga(Bytes file, std::string const& path, std::optional<Encoding> override_encoding);
+Image decode_bmp(Bytes file, std::string const& path, std::optional<Encoding> override_encoding);
 Image decode_exr(Bytes file, std::string const& path);
 Image decode_hdr(Bytes file, std::string const& path);
 Image decode_pfm(Bytes file, std::string const& path);

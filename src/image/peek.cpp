@@ -3,6 +3,7 @@
 #include "image/exr.h"
 #include "math/error.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -57,6 +58,18 @@ Size hdr_size(std::istream& in) {
     }
     return std::nullopt;
 }
+/// Of 16 bits each in OS/2's header, of 32 and signed (rows from above) in the others.
+Size bmp_size(std::istream& in) {
+    char head[26] = {};
+    in.seekg(0);
+    if (!in.read(&head[0], 26)) return std::nullopt;
+    auto const word = [&](std::size_t at) { return little_endian_16({&head[at], 2}); };
+    if (word(14) == 12) return {{word(18), word(20)}};
+    auto const number = [&](std::size_t at) {
+        return std::int64_t{static_cast<std::int32_t>(word(at) | (word(at + 2) << 16))};
+    };
+    return {{number(18), std::abs(number(22))}};
+}
 Size pfm_size(std::istream& in) {
     in.seekg(2);
     std::int64_t width = 0;
@@ -77,6 +90,7 @@ std::optional<std::array<std::int64_t, 2>> peek_size(std::filesystem::path const
     std::string_view const bytes = head;
     if (bytes.starts_with("#?")) return hdr_size(in);
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return pfm_size(in);
+    if (bytes.starts_with("BM")) return bmp_size(in);
     if (bytes.starts_with("\x89PNG\r\n\x1a\n"))
         return {{big_endian(bytes.substr(16, 4)), big_endian(bytes.substr(20, 4))}};
     if (bytes.starts_with("\xff\xd8\xff")) return jpeg_size(in);

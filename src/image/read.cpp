@@ -60,7 +60,7 @@ bool has_extension(std::filesystem::path const& path, std::string_view extension
 
 // The first bytes of the formats; TGA has none.
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xff\xd8\xff", kExr = "\x76\x2f\x31\x01",
-                           kHdr = "#?", kPfm = "PF", kGrayPfm = "Pf";
+                           kHdr = "#?", kPfm = "PF", kGrayPfm = "Pf", kBmp = "BM";
 
 Image decode_by_content(Bytes file, std::filesystem::path const& path, std::optional<Encoding> encoding) {
     std::string const name = path.string();
@@ -70,8 +70,10 @@ Image decode_by_content(Bytes file, std::filesystem::path const& path, std::opti
     if (starts_with(file, kExr)) return codec::decode_exr(file, name);
     if (starts_with(file, kHdr)) return codec::decode_hdr(file, name);
     if (starts_with(file, kPfm) || starts_with(file, kGrayPfm)) return codec::decode_pfm(file, name);
+    // Two letters are little: a TGA file that begins with them would be one with a colour map of an unknown type.
+    if (starts_with(file, kBmp)) return codec::decode_bmp(file, name, encoding);
     if (has_extension(path, ".tga")) return codec::decode_tga(file, name, encoding);
-    codec::fail(name, "is no image of a known format; PNG, JPEG, EXR, HDR, PFM and TGA are read");
+    codec::fail(name, "is no image of a known format; PNG, JPEG, EXR, HDR, PFM, BMP and TGA are read");
 }
 
 }  // namespace

@@ -5,9 +5,9 @@ namespace nephroid {
 namespace {
 
 PerspectiveCamera perspective_camera(Params& p) {
-    float const fov = p.number("fov", 90);
-    if (!(fov > 0 && fov < 180)) p.fail("\"fov\" must be above 0 and below 180 degrees");
-    return {radians(fov), p.number("lensradius", 0), p.number("focaldistance", 1e6f)};
+    float const fov = p.angle("fov", 90);
+    if (!(fov > 0 && fov < kPi)) p.fail("\"fov\" must be above 0 and below 180 degrees");
+    return {fov, p.number("lensradius", 0), p.number("focaldistance", 1e6f)};
 }
 
 PerspectiveCamera realistic_stand_in(Params& p) {
@@ -35,12 +35,10 @@ void common(Params& p, Camera& camera) {
 
 }  // namespace
 
-Camera make_camera(std::string const& type, Params& p, Mat4 const& camera_from_world) {
+Camera make_camera(std::string const& type, Params& p, Mat4 const& world_from_camera) {
     Camera camera;
     camera.where = p.where();
-    auto const to_world = inverse(camera_from_world);
-    if (!to_world) p.fail("the current transform cannot be inverted");
-    camera.to_world = *to_world;
+    camera.to_world = world_from_camera;
     if (type == "perspective") {
         camera.kind = perspective_camera(p);
     } else if (type == "orthographic") {

@@ -90,9 +90,11 @@ class Reader {
         if (!w) fail("the file ends where " + what + " should be; it is cut off");
         return *w;
     }
-    float number(std::string const& what) {
+    float number(std::string const& what) { return number(what, parse_float); }
+    template <class T>
+    T number(std::string const& what, std::optional<T> parse(std::string_view)) {
         auto const w = word(what);
-        auto const v = parse_float(w);
+        auto const v = parse(w);
         if (!v) fail("\"" + shown(w, 40) + "\" is not a finite number; here should be " + what);
         return *v;
     }
@@ -128,10 +130,11 @@ class Reader {
         if (changes) note("the factors of a tilted lamp (TILT=INCLUDE) are not applied");
     }
 
-    std::vector<float> angles(std::int64_t n, std::string const& what, float most) {
-        std::vector<float> r;
+    /// In double: degrees in a float do not reach every angle.
+    std::vector<double> angles(std::int64_t n, std::string const& what, double most) {
+        std::vector<double> r;
         for (std::int64_t i = 0; i < n; ++i) {
-            float const a = number(what);
+            double const a = number(what, parse_double);
             if (a < 0 || a > most)
                 fail(what + " is outside 0 to " + std::to_string(static_cast<int>(most)) +
                      " degrees; of photometric type C none can be");
@@ -192,17 +195,16 @@ class Reader {
         std::size_t column;
     };
     /// All planes that the file's planes stand for.
-    std::vector<Plane> planes(std::vector<float> const& horizontal) {
+    std::vector<Plane> planes(std::vector<double> const& horizontal) {
         std::vector<Plane> r;
-        for (std::size_t i = 0; i < horizontal.size(); ++i)
-            r.push_back({static_cast<double>(horizontal[i]), i});
+        for (std::size_t i = 0; i < horizontal.size(); ++i) r.push_back({horizontal[i], i});
         auto const mirror = [&](double sum) {
             for (std::size_t i = 0, n = r.size(); i < n; ++i)
                 r.push_back({std::fmod(sum - r[i].angle + 360, 360), r[i].column});
         };
-        auto const is = [](float angle, float wanted) { return std::abs(angle - wanted) < 1e-3f; };
-        float const first = horizontal.front();
-        float const last = horizontal.back();
+        auto const is = [](double angle, double wanted) { return std::abs(angle - wanted) < 1e-3; };
+        double const first = horizontal.front();
+        double const last = horizontal.back();
         if (horizontal.size() == 1 || (is(first, 0) && is(last, 360))) return r;
         if (is(first, 0) && is(last, 90)) {
             mirror(180), mirror(360);
@@ -221,13 +223,12 @@ class Reader {
         return r;
     }
 
-    void unfold(std::vector<float> const& vertical, std::vector<float> const& horizontal,
+    void unfold(std::vector<double> const& vertical, std::vector<double> const& horizontal,
                 std::vector<float> const& candela) {
         constexpr double kDegree = std::numbers::pi / 180;
         IntensityTable& t = file_.table;
-        for (float const a : vertical) {
-            auto const angle =
-                std::min(static_cast<float>(static_cast<double>(a) * kDegree), std::numbers::pi_v<float>);
+        for (double const a : vertical) {
+            auto const angle = std::min(static_cast<float>(a * kDegree), std::numbers::pi_v<float>);
             if (!t.vertical.empty() && !(angle > t.vertical.back()))
                 fail("two vertical angles are too close to tell apart; leave one out");
             t.vertical.push_back(angle);

@@ -12,7 +12,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr auto kColour = {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody};
+constexpr auto kColour = {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody, ParamType::Float};
 
 ImageId image_of(Params& p, EnvironmentMapping* mapping = nullptr) {
     auto const name = p.string("filename", "");
@@ -55,8 +55,8 @@ SpotLight spot(Params& p) {
     l.power = output(p, "power");
     l.from = p.point3("from", {0, 0, 0});
     l.to = p.point3("to", {0, 0, 1});
-    l.cone_angle = radians(p.number("coneangle", 30));
-    l.cone_delta = radians(p.number("conedeltaangle", 5));
+    l.cone_angle = p.angle("coneangle", 30);
+    l.cone_delta = p.angle("conedeltaangle", 5);
     if (l.cone_delta > l.cone_angle && l.cone_angle > 0) {
         p.note("\"conedeltaangle\" is above \"coneangle\" and was clamped to it");
         l.cone_delta = l.cone_angle;
@@ -130,7 +130,7 @@ SunSkyLight sun_sky(Params& p) {
         if (l.sun_direction == Vec3{0, 0, 0})
             p.fail("the sun is at the nadir: it has no place on the horizon");
     }
-    l.sun_radius = radians(p.number("sunsize", 0.2665f));
+    l.sun_radius = p.angle("sunsize", 0.2665f);
     l.scale = p.number("scale", 1);
     l.sun = p.boolean("sun", true);
     l.sky = p.boolean("sky", true);
@@ -179,9 +179,8 @@ ProjectionLight projection(Params& p) {
     needed_file(p, "a picture");
     ProjectionLight l;
     l.image = image_of(p);
-    float const fov = p.number("fov", 90);
-    if (!(fov > 0 && fov < 180)) p.fail("\"fov\" must be above 0 and below 180 degrees");
-    l.fov = radians(fov);
+    l.fov = p.angle("fov", 90);
+    if (!(l.fov > 0 && l.fov < kPi)) p.fail("\"fov\" must be above 0 and below 180 degrees");
     l.scale = p.number("scale", 1);
     l.power = output(p, "power");
     return l;
@@ -206,8 +205,8 @@ AreaLight make_area_light(std::string const& type, Params& p, Textures& textures
     if (type == "area") p.fail("\"area\" is of pbrt-v2; in pbrt-v4 it is \"diffuse\"");
     if (type != "diffuse") p.fail("unknown area light; the only one is \"diffuse\"");
     AreaLight l;
-    auto const* colour =
-        p.find("L", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody, ParamType::Texture});
+    auto const* colour = p.find("L", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody,
+                                      ParamType::Float, ParamType::Texture});
     if (colour && p.find("filename", {ParamType::String}))
         p.fail("give either \"L\" or \"filename\", not both");
     if (colour && colour->type == ParamType::Texture) {

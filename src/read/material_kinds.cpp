@@ -27,7 +27,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOldName
      {"fourier", "\"measured\""}}};
 
 /// What a spectrum may be given as.
-constexpr auto kSpectral = {ParamType::Rgb, ParamType::Spectrum, ParamType::Texture, ParamType::Blackbody};
+constexpr auto kSpectral = {ParamType::Rgb, ParamType::Spectrum, ParamType::Texture, ParamType::Blackbody,
+                            ParamType::Float};
 
 Spd copper(char const* what) { return NamedSpd{std::string("metal-Cu-") + what}; }
 
@@ -179,12 +180,15 @@ Roughness Materials::roughness(Params& p, std::string const& prefix) {
     r.v = v.valid() ? v : both;
     // One direction alone leaves the other smooth.
     if (r.u.valid() != r.v.valid()) (r.u.valid() ? r.v : r.u) = textures_.constant(0.0f, p.where());
-    r.remap = p.boolean("remaproughness", true);
+    // pbrt's have no prefix. Ours may, where the two surfaces of a coated material differ.
+    r.remap = p.boolean(prefix + "remaproughness", p.boolean("remaproughness", true));
     constexpr std::array kDistributions{Distribution::TrowbridgeReitz, Distribution::TrowbridgeReitz,
                                         Distribution::Beckmann, Distribution::Blinn};
-    r.distribution =
-        kDistributions[p.choice("distribution", {"trowbridgereitz", "ggx", "beckmann", "blinn"}, 0)];
-    r.multiscatter = p.boolean("multiscatter", false);
+    auto const distribution = [&](std::string const& name, std::size_t otherwise) {
+        return p.choice(name, {"trowbridgereitz", "ggx", "beckmann", "blinn"}, otherwise);
+    };
+    r.distribution = kDistributions[distribution(prefix + "distribution", distribution("distribution", 0))];
+    r.multiscatter = p.boolean(prefix + "multiscatter", p.boolean("multiscatter", false));
     return r;
 }
 
@@ -281,7 +285,7 @@ MetallicRoughnessMaterial Materials::metallic_roughness(Params& p) {
                    "\" is ignored: thin walls have no inside; set \"thinwalled\" to false");
     m.clearcoat = {number("clearcoat"), number("clearcoatroughness")};
     m.sheen = {albedo(p, "sheencolor", std::nullopt), number("sheenroughness")};
-    m.anisotropy = {number("anisotropy"), radians(p.number("anisotropyrotation", 0))};
+    m.anisotropy = {number("anisotropy"), p.angle("anisotropyrotation", 0)};
     m.multiscatter = p.boolean("multiscatter", true);
     return m;
 }

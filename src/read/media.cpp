@@ -92,7 +92,8 @@ void Media::finish() {
     for (auto const& [name, where] : outside_) {
         auto const medium = media_.find(name);
         if (medium == media_.end() || !medium->second.absorption) continue;
-        if (std::none_of(filled_.begin(), filled_.end(), [&](Filled const& f) { return f.medium == name; }))
+        if (std::none_of(filled_.begin(), filled_.end(),
+                         [&name = name](Filled const& f) { return f.medium == name; }))
             context_.note(where,
                           "what medium \"" + shown(name) +
                               "\" absorbs outside of surfaces is not rendered, as nothing has it inside");

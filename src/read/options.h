@@ -5,8 +5,8 @@
 
 namespace nephroid {
 
-/// `camera_from_world` is the current transform at the directive.
-Camera make_camera(std::string const& type, Params& params, Mat4 const& camera_from_world);
+/// `world_from_camera` is the inverse of the current transform at the directive.
+Camera make_camera(std::string const& type, Params& params, Mat4 const& world_from_camera);
 FilmSettings make_film(std::string const& type, Params& params);
 Filter make_filter(std::string const& type, Params& params);
 Integrator make_integrator(std::string const& type, Params& params);

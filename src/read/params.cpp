@@ -139,6 +139,12 @@ float Params::number(std::string_view name, float otherwise) {
     auto const* p = one(name, ParamType::Float, 1);
     return p ? p->floats[0] : otherwise;
 }
+float Params::angle(std::string_view name, float otherwise_degrees) {
+    auto const exact = std::string(name) + ".radians";
+    if (!find(exact)) return radians(number(name, otherwise_degrees));
+    if (find(name)) fail("give either \"" + shown(name) + "\" or \"" + shown(exact) + "\", not both");
+    return number(exact, 0);
+}
 int Params::integer(std::string_view name, int otherwise) {
     auto const* p = one(name, ParamType::Integer, 1);
     return p ? p->ints[0] : otherwise;

@@ -78,6 +78,8 @@ class Params {
     Param const* find(std::string_view name, std::initializer_list<ParamType> types);
 
     float number(std::string_view name, float otherwise);
+    /// Given in degrees; ours also in radians, as "float NAME.radians": degrees in a float do not reach every angle.
+    float angle(std::string_view name, float otherwise_degrees);
     int integer(std::string_view name, int otherwise);
     bool boolean(std::string_view name, bool otherwise);
     std::string string(std::string_view name, std::string_view otherwise);

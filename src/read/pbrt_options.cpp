@@ -12,7 +12,7 @@ namespace nephroid {
 void PbrtReader::camera(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Camera");
     auto p = params(tokens, "Camera", type, where);
-    context_.scene.camera = make_camera(type, p, state_.start);
+    context_.scene.camera = make_camera(type, p, inverse_transform(p));
     p.note_unused();
     note_motion(where);
     auto const end = inverse(state_.end);
@@ -24,7 +24,7 @@ void PbrtReader::film(Tokenizer& tokens, SourceLocation where) {
     auto const type = type_of(tokens, "Film");
     auto p = params(tokens, "Film", type, where);
     context_.scene.settings.film = make_film(type, p);
-    if (state_.color_space != FileColorSpace::Srgb)
+    if (state_.color_space != FileColorSpace::Srgb && state_.color_space != FileColorSpace::SrgbAcesD60)
         context_.note(where,
                       "the ColorSpace at Film would be that of pbrt's picture: here pictures are in sRGB");
     p.note_unused();

@@ -98,6 +98,8 @@ class PbrtReader {
     void concat(Mat4 const& m, SourceLocation where);
     Mat4 matrix(Tokenizer& tokens, char const* what);
     void note_motion(SourceLocation where);
+    /// The inverse of the current transform; the exact one where "string inverse" names a coordinate system that is it.
+    Mat4 inverse_transform(Params& p);
 
     // Options (pbrt_options.cpp)
     void camera(Tokenizer&, SourceLocation);

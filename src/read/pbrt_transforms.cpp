@@ -1,6 +1,9 @@
 // Transform directives: each multiplies the current transform, or transforms, from the right.
 #include "pbrt_reader.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nephroid {
 
 void PbrtReader::concat(Mat4 const& m, SourceLocation where) {
@@ -102,6 +105,26 @@ void PbrtReader::active_transform(Tokenizer& tokens, SourceLocation where) {
 void PbrtReader::transform_times(Tokenizer& tokens, SourceLocation /*where*/) {
     // Of motion only the start is rendered, so when it starts does not matter.
     for (int i = 0; i < 2; ++i) required_number(tokens, context_, "TransformTimes");
+}
+
+Mat4 PbrtReader::inverse_transform(Params& p) {
+    auto const computed = inverse(state_.start);
+    if (!computed) p.fail("the current transform cannot be inverted");
+    auto const name = p.string("inverse", "");
+    if (name.empty()) return *computed;
+    auto const it = coordinate_systems_.find(name);
+    if (it == coordinate_systems_.end())
+        p.fail("\"inverse\": no coordinate system \"" + shown(name) + "\" is defined");
+    Mat4 const& given = it->second.first;
+    for (std::size_t i = 0; i < 4; ++i) {
+        double size = 0;
+        for (double const x : computed->m[i]) size = std::max(size, std::abs(x));
+        for (std::size_t k = 0; k < 4; ++k)
+            if (!(std::abs(given.m[i][k] - computed->m[i][k]) <= 1e-6 * size))
+                p.fail("\"inverse\": \"" + shown(name) +
+                       "\" is not the inverse of the current transform; leave it out");
+    }
+    return given;
 }
 
 void PbrtReader::note_motion(SourceLocation where) {

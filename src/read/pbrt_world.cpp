@@ -3,6 +3,7 @@
 
 #include "scene/match.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nephroid {
@@ -99,8 +100,14 @@ void PbrtReader::texture(Tokenizer& tokens, SourceLocation where) {
     auto kind = required_string(tokens, context_, "Texture: kind");
     auto list = parse_params(tokens, context_, state_.color_space);
     note_motion(where);
+    // Only where it is named: a texture without a place in space does not mind a transform that has no inverse.
+    std::optional<Mat4> exact_inverse;
+    if (std::any_of(list.begin(), list.end(), [](Param const& p) { return p.name == "inverse"; })) {
+        Params p(context_, "Texture \"" + shown(name) + "\"", where, list);
+        exact_inverse = inverse_transform(p);
+    }
     textures_.define(std::move(name), type, std::move(kind), std::move(list),
-                     inherited(AttributeTarget::ForTexture), state_.start, where);
+                     inherited(AttributeTarget::ForTexture), {state_.start, exact_inverse}, where);
 }
 
 void PbrtReader::make_named_medium(Tokenizer& tokens, SourceLocation where) {

@@ -19,7 +19,7 @@ SamplerOptions stratified(Params& p) {
     constexpr int kMost = 1 << 15;  // their product must fit an int
     if (s.x_strata <= 0 || s.y_strata <= 0 || s.x_strata > kMost || s.y_strata > kMost)
         p.fail("\"xsamples\" and \"ysamples\" must be from 1 to 32768");
-    return {s, s.x_strata * s.y_strata, {}};
+    return {s, p.find("pixelsamples") ? pixel_samples(p) : s.x_strata * s.y_strata, {}};
 }
 
 }  // namespace

@@ -9,9 +9,8 @@ namespace {
 
 /// Degrees from parameter phimax to radians, in (0, 2 pi].
 float phi_max(Params& p) {
-    float const degrees = p.number("phimax", 360);
-    if (degrees >= 360) return kTwoPi;  // not rounded: a whole turn must close
-    return radians(degrees);
+    float const phi = p.angle("phimax", 360);
+    return phi >= radians(360) ? kTwoPi : phi;  // not rounded: a whole turn must close
 }
 
 Sphere sphere(Params& p) {

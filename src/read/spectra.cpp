@@ -65,6 +65,10 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
         count(p.floats.size(), 3);
         return rgb_spd(context, p, role);
     }
+    if (p.type == ParamType::Float) {
+        count(p.floats.size(), 1);
+        return ConstantSpd{p.floats[0]};
+    }
     if (p.type == ParamType::Blackbody) {
         count(p.floats.size(), 1);
         if (!(p.floats[0] > 0))
@@ -87,7 +91,8 @@ Spd spd_of(Context& context, Param const& p, SpectrumRole role) {
 }
 
 Spd emission(Params& params, std::string_view name) {
-    auto const* p = params.find(name, {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody});
+    auto const* p =
+        params.find(name, {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody, ParamType::Float});
     if (p) return spd_of(params.context(), *p, SpectrumRole::Illuminant);
     return RgbIlluminantSpd{{1, 1, 1}, white_of(params.color_space())};
 }

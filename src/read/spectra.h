@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-/// From an rgb, spectrum or blackbody parameter with exactly one value. An rgb triple is brought to linear sRGB and into
+/// From an rgb, spectrum or blackbody parameter, or a float (the same at all wavelengths), with exactly one value. An rgb triple is brought to linear sRGB and into
 /// the range of its role, with a note where that changes it.
 Spd spd_of(Context& context, Param const& param, SpectrumRole role);
 /// The emission in parameter `name`; pbrt's default, the colour space's white, where it is not there.

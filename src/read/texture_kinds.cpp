@@ -11,8 +11,9 @@ namespace nephroid {
 
 namespace {
 
-Mat4 inverse_of(Params const& p, Mat4 const& to_world) {
-    auto const m = inverse(to_world);
+Mat4 inverse_of(Params& p, Textures::Place const& place) {
+    p.find("inverse");
+    auto const m = place.from_world ? place.from_world : inverse(place.to_world);
     if (!m) p.fail("the current transform cannot be inverted");
     return *m;
 }
@@ -27,20 +28,21 @@ Vec3 to_world_direction(Mat4 const& to_world, Vec3 v) {
         sum += w[r] * w[r];
     }
     if (!(sum > 0)) return Vec3{0};
-    double const scale = 1 / std::sqrt(sum);
+    // One that is a unit vector but for rounding keeps its bits.
+    double const scale = std::abs(sum - 1) < 1e-6 ? 1 : 1 / std::sqrt(sum);
     return {static_cast<float>(w[0] * scale), static_cast<float>(w[1] * scale),
             static_cast<float>(w[2] * scale)};
 }
 
-TextureMapping mapping_2d(Params& p, Mat4 const& to_world) {
+TextureMapping mapping_2d(Params& p, Textures::Place const& place) {
     switch (p.choice("mapping", {"uv", "spherical", "cylindrical", "planar"}, 0)) {
         case 1:
-            return SphericalMapping{inverse_of(p, to_world)};
+            return SphericalMapping{inverse_of(p, place)};
         case 2:
-            return CylindricalMapping{inverse_of(p, to_world)};
+            return CylindricalMapping{inverse_of(p, place)};
         case 3:
-            return PlanarMapping{inverse_of(p, to_world), p.vector3("v1", {1, 0, 0}),
-                                 p.vector3("v2", {0, 1, 0}), p.number("udelta", 0), p.number("vdelta", 0)};
+            return PlanarMapping{inverse_of(p, place), p.vector3("v1", {1, 0, 0}), p.vector3("v2", {0, 1, 0}),
+                                 p.number("udelta", 0), p.number("vdelta", 0)};
         default:
             return UvMapping{p.number("uscale", 1), p.number("vscale", 1), p.number("udelta", 0),
                              p.number("vdelta", 0)};
@@ -64,7 +66,7 @@ TextureKind Textures::image(Definition const& d, Params& p, SpectrumRole role) {
     ImageTexture t;
     t.is_spectrum = d.spectrum;
     t.role = role;
-    t.mapping = mapping_2d(p, d.to_world);
+    t.mapping = mapping_2d(p, d.place);
     t.scale = p.number("scale", 1);
     t.invert = p.boolean("invert", false);
     constexpr std::array kWraps{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp, WrapMode::Octahedral};
@@ -101,13 +103,13 @@ TextureKind Textures::of_others(Definition const& d, Params& p, SpectrumRole rol
         DirectionMixTexture t;
         t.tex1 = input(d, p, "tex1", 0, role);
         t.tex2 = input(d, p, "tex2", 1, role);
-        t.dir = to_world_direction(d.to_world, p.vector3("dir", {0, 1, 0}));
+        t.dir = to_world_direction(d.place.to_world, p.vector3("dir", {0, 1, 0}));
         if (t.dir == Vec3{0}) p.fail("\"dir\" is a direction without length");
         return t;
     }
     if (d.kind == "bilerp") {
         BilerpTexture t;
-        t.mapping = mapping_2d(p, d.to_world);
+        t.mapping = mapping_2d(p, d.place);
         t.v00 = input(d, p, "v00", 0, role);
         t.v01 = input(d, p, "v01", 1, role);
         t.v10 = input(d, p, "v10", 0, role);
@@ -116,7 +118,7 @@ TextureKind Textures::of_others(Definition const& d, Params& p, SpectrumRole rol
     }
     if (d.kind == "dots") {
         DotsTexture t;
-        t.mapping = mapping_2d(p, d.to_world);
+        t.mapping = mapping_2d(p, d.place);
         // pbrt-v4 mixes the two up: "inside" is what lies around the dots. Scenes are made by what they look like there.
         t.outside = input(d, p, "inside", 1, role);
         t.inside = input(d, p, "outside", 0, role);
@@ -126,9 +128,9 @@ TextureKind Textures::of_others(Definition const& d, Params& p, SpectrumRole rol
     t.dimension = p.integer("dimension", 2);
     if (t.dimension != 2 && t.dimension != 3) p.fail("\"dimension\" must be 2 or 3");
     if (t.dimension == 2)
-        t.mapping = mapping_2d(p, d.to_world);
+        t.mapping = mapping_2d(p, d.place);
     else
-        t.world_to_texture = inverse_of(p, d.to_world);
+        t.world_to_texture = inverse_of(p, d.place);
     t.tex1 = input(d, p, "tex1", 1, role);
     t.tex2 = input(d, p, "tex2", 0, role);
     return t;
@@ -140,7 +142,7 @@ TextureKind Textures::of_noise(Definition const& d, Params& p) {
     if (marble && !d.spectrum) p.fail("is a spectrum texture only; write \"spectrum\" for \"float\"");
     if (!marble && d.spectrum)
         p.fail("is a float texture only; make it one and let it be the \"amount\" of a spectrum \"mix\"");
-    Mat4 const world_to_texture = inverse_of(p, d.to_world);
+    Mat4 const world_to_texture = inverse_of(p, d.place);
     if (d.kind == "windy") return WindyTexture{world_to_texture};
     int const octaves = p.integer("octaves", 8);
     if (octaves < 0 || octaves > kMaxOctaves)
@@ -163,7 +165,8 @@ TextureKind Textures::kind_of(Definition const& d, Params& p, SpectrumRole role)
     if (is({"fbm", "wrinkled", "windy", "marble"})) return of_noise(d, p);
     if (d.kind == "constant") {
         if (!d.spectrum) return ConstantFloatTexture{p.number("value", 1)};
-        auto const* v = p.find("value", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody});
+        auto const* v =
+            p.find("value", {ParamType::Rgb, ParamType::Spectrum, ParamType::Blackbody, ParamType::Float});
         return ConstantSpectrumTexture{v ? spd_of(context_, *v, role) : Spd{ConstantSpd{1}}, role};
     }
     if (d.kind == "ptex") {

@@ -8,7 +8,7 @@
 namespace nephroid {
 
 void Textures::define(std::string name, std::string const& type, std::string kind, ParamList params,
-                      SharedParams inherited, Mat4 const& to_world, SourceLocation where) {
+                      SharedParams inherited, Place place, SourceLocation where) {
     if (type != "float" && type != "spectrum")
         context_.fail(where, "Texture \"" + shown(name) + "\": type \"" + shown(type) +
                                  "\" must be \"float\" or \"spectrum\"" +
@@ -25,7 +25,7 @@ void Textures::define(std::string name, std::string const& type, std::string kin
                             spectrum,
                             std::move(params),
                             std::move(inherited),
-                            to_world,
+                            std::move(place),
                             where,
                             rank,
                             {}});
@@ -77,8 +77,8 @@ TextureId Textures::float_param(Params& params, std::string_view name, std::opti
 
 TextureId Textures::spectrum_param(Params& params, std::string_view name, std::optional<Spd> otherwise,
                                    SpectrumRole role) {
-    auto const* p =
-        params.find(name, {ParamType::Rgb, ParamType::Spectrum, ParamType::Texture, ParamType::Blackbody});
+    auto const* p = params.find(name, {ParamType::Rgb, ParamType::Spectrum, ParamType::Texture,
+                                       ParamType::Blackbody, ParamType::Float});
     if (!p) return otherwise ? constant(std::move(*otherwise), role, params.where()) : TextureId{};
     if (p->type == ParamType::Texture) return make(look_up(*p, true), role);
     return constant(spd_of(context_, *p, role), role, p->where);

@@ -18,8 +18,13 @@ class Textures {
   public:
     explicit Textures(Context& context) : context_(context) {}
 
+    /// Where a texture is; its inverse is computed where it is not given.
+    struct Place {
+        Mat4 to_world;
+        std::optional<Mat4> from_world;
+    };
     void define(std::string name, std::string const& type, std::string kind, ParamList params,
-                SharedParams inherited, Mat4 const& to_world, SourceLocation where);
+                SharedParams inherited, Place place, SourceLocation where);
 
     /// The texture or constant in parameter `name`; `otherwise` where it is not there (none: no texture).
     TextureId float_param(Params& params, std::string_view name, std::optional<float> otherwise);
@@ -41,7 +46,7 @@ class Textures {
         bool spectrum = false;
         ParamList params;
         SharedParams inherited;
-        Mat4 to_world;
+        Place place;
         SourceLocation where;
         Rank rank;
         std::array<TextureId, 3> made;  // by role; a float texture uses the first

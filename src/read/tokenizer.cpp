@@ -1,8 +1,9 @@
 #include "tokenizer.h"
 
+#include "plain_text.h"
+
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace nephroid {
 
@@ -18,14 +19,10 @@ constexpr std::array<bool, 256> kEndsWord = [] {
 }  // namespace
 
 Tokenizer::Tokenizer(Scene const& scene, std::uint32_t file, std::string_view text)
-    : scene_(scene), file_(file), p_(text.data()), end_(text.data() + text.size()) {
-    if (text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe"))
-        scene.fail({file, 1}, "the file is UTF-16; save it as UTF-8");
-    if (text.starts_with("\xef\xbb\xbf")) p_ += 3;
-    if (void const* nul = text.empty() ? nullptr : std::memchr(text.data(), 0, text.size())) {
-        auto const line = 1 + std::count(text.data(), static_cast<char const*>(nul), '\n');
-        scene.fail({file, static_cast<std::uint32_t>(line)}, "a NUL byte; scene files are text");
-    }
+    : scene_(scene), file_(file) {
+    text = plain_text(scene, file, text);
+    p_ = text.data();
+    end_ = p_ + text.size();
 }
 
 void Tokenizer::skip_blanks() {

@@ -40,8 +40,8 @@ class Tokenizer {
     Scene const& scene_;
     std::uint32_t file_;
     std::uint32_t line_ = 1;
-    char const* p_;
-    char const* end_;
+    char const* p_ = nullptr;
+    char const* end_ = nullptr;
     std::optional<Token> ungot_;
 };
 

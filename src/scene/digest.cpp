@@ -50,7 +50,7 @@ void Digest::bytes(void const* data, std::size_t size) {
     std::memcpy(rest_.data(), p, size);
 }
 
-std::string Digest::hex() const {
+std::array<std::uint64_t, 2> Digest::words() const {
     std::array<unsigned char, 16> tail{};
     std::memcpy(tail.data(), rest_.data(), size_ % 16);
     std::uint64_t k1 = 0, k2 = 0;
@@ -61,8 +61,12 @@ std::string Digest::hex() const {
     a += b, b += a;
     a = avalanche(a), b = avalanche(b);
     a += b, b += a;
+    return {a, b};
+}
+
+std::string Digest::hex() const {
     std::string text;
-    for (std::uint64_t const h : {a, b})
+    for (std::uint64_t const h : words())
         for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[(h >> shift) & 15u];
     return text;
 }

@@ -170,8 +170,8 @@ Aim::Aim(World const& world) {
     balls_ = caster_balls(world.casters(), std::clamp<std::uint64_t>(kMostWays / lights, 1, kMostBalls));
     if (balls_.empty()) return;
     std::uint64_t const pairs = lights * static_cast<std::uint64_t>(per_cell());
-    side_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-        static_cast<std::uint64_t>(std::sqrt(static_cast<double>((1u << 16) / pairs))), 1, kMostSide));
+    auto const side = static_cast<std::uint64_t>(std::sqrt(65536.0 / static_cast<double>(pairs)));
+    side_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(side, 1, kMostSide));
     first_.reserve(lights + 1);
     std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < lights; ++i) {

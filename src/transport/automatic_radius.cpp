@@ -15,8 +15,6 @@ namespace nephroid {
 namespace {
 
 constexpr std::uint64_t kPilotPaths = 16384;
-constexpr std::uint64_t kPilotPass = std::uint64_t{1}
-                                     << 40;  // its numbers are those of no pass that is rendered
 constexpr std::uint32_t kNeighbours = 8;
 constexpr int kLooks = 24;             // by as many, over the picture
 constexpr std::size_t kMostAt = 2048;  // photons at which the caustic map is asked

@@ -1,5 +1,6 @@
 #include "transport/render_pass.h"
 
+#include "camera_sample.h"
 #include "light_path_image.h"
 #include "photon_maps.h"
 #include "photon_plan.h"
@@ -34,30 +35,6 @@ PreparedCamera camera_of(World const& world, Settings const& settings) {
         world.scene().fail(world.scene().camera.where,
                            "the camera's transform cannot be inverted; check LookAt and Scale");
     return *c;
-}
-
-HemisphereSampling hemisphere_of(Integrator const& integrator) {
-    return match(integrator, [](auto const& i) {
-        if constexpr (requires { i.hemisphere; }) return i.hemisphere;
-        return HemisphereSampling::Cosine;
-    });
-}
-LightSampling lights_of(Integrator const& integrator) {
-    return match(integrator, [](auto const& i) { return i.lights; });
-}
-
-/// The sensor's value of one camera sample, linear sRGB, and by class what it is the sum of.
-Vec3 sensor_value(RenderJob const& job, SeenLight const& seen, float weight, Wavelengths const& lambda,
-                  std::array<Vec3, kLightClasses>* by_class) {
-    Vec3 rgb = job.sensor()(seen.total() * weight, lambda);
-    float const m = max_component(rgb);
-    float const most = job.settings().film.max_component;
-    float const scale = m > most ? most / m : 1.0f;
-    if (m > most) rgb *= scale;
-    if (by_class && is_finite(rgb))
-        for (std::size_t i = 0; i < kLightClasses; ++i)
-            (*by_class)[i] = job.sensor()(seen.of[i] * weight, lambda) * scale;
-    return rgb;
 }
 
 }  // namespace
@@ -103,51 +80,6 @@ Wavelengths RenderJob::pass_wavelengths(std::uint64_t i) const {
     return Wavelengths::spectral(sampler.next_1d());
 }
 
-namespace {
-
-/// One camera sample: the light seen, by class, as the sensor has it.
-bool add_camera_sample(RenderJob const& job, PassWork const& work, int x, int y, std::uint64_t pass,
-                       std::uint64_t sample, NearestPhotons& nearest, Film& film, RayStats& stats) {
-    Settings const& settings = job.settings();
-    bool const wants_aovs = film.has_aovs();
-    // The pixel's own name, whatever the crop window or the resolution.
-    std::uint64_t const pixel =
-        static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
-    PathSampler sampler(job.sequence(), stream::kCamera, pixel, sample);
-    sampler.at(dimension::kFilm);
-    FilterSample const f = job.filter().sample(sampler.next_2d());
-    sampler.at(dimension::kLens);
-    Vec2 const lens = job.camera().has_lens() ? sampler.next_2d() : Vec2{0.5f, 0.5f};
-    sampler.at(dimension::kWavelength);
-    Wavelengths const lambda = job.prepares()                     ? job.pass_wavelengths(pass)
-                               : settings.color == ColorMode::Rgb ? Wavelengths::rgb()
-                                                                  : Wavelengths::spectral(sampler.next_1d());
-    CameraRay const camera =
-        job.camera().ray(Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset, lens);
-    PathContext c{job,
-                  job.world(),
-                  lambda,
-                  sampler,
-                  stats,
-                  hemisphere_of(settings.integrator),
-                  lights_of(settings.integrator),
-                  work.photons.get(),
-                  &nearest};
-    AovSample aov;
-    SeenLight const seen = match(
-        settings.integrator, [](LightPathIntegrator const&) { return SeenLight{}; },
-        [&](auto const& integrator) {
-            return radiance(integrator, c, camera.ray, wants_aovs ? &aov : nullptr);
-        });
-    Vec3 const value =
-        c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
-                  : sensor_value(job, seen, camera.weight, lambda, wants_aovs ? &aov.light : nullptr);
-    if (wants_aovs) film.add_aov(x, y, pass, aov, f.weight);
-    return film.add(x, y, value, f.weight);
-}
-
-}  // namespace
-
 std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
                           Film& film, RayStats& stats) {
     auto const samples = static_cast<std::uint64_t>(samples_per_pass(job.settings()));
@@ -169,7 +101,8 @@ std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const
         for (int x = tile.x0; x < tile.x1; ++x)
             for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass)
                 for (std::uint64_t k = pass * samples; k < (pass + 1) * samples; ++k)
-                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats)) ++dropped;
+                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats, nullptr))
+                        ++dropped;
     return dropped;
 }
 

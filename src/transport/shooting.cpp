@@ -215,6 +215,20 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
     return shot;
 }
 
+double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths) {
+    if (paths == 0 || !job.photon_plan()) return 0;
+    return static_cast<double>(shoot(job, kind, kPilotPass, paths, {})->photons.size()) /
+           static_cast<double>(paths);
+}
+
+double expected_photons(RenderJob const& job) {
+    double sum = 0;
+    for (ShotKind const kind : {global_shot(job.settings().integrator), ShotKind::Caustic})
+        if (std::uint64_t const paths = paths_of_pass(job, kind); paths > 0)
+            sum += static_cast<double>(paths) * photons_per_path(job, kind);
+    return sum;
+}
+
 TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
                             std::uint64_t paths) {
     struct Visit {

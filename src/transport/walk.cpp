@@ -1,6 +1,7 @@
 #include "walk.h"
 
 #include "model/shading_normal.h"
+#include "path_trace.h"
 #include "spectrum/color.h"
 
 #include <algorithm>
@@ -101,13 +102,18 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
         bool const found = c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit);
         if (!walk.interiors.empty()) walk.beta *= transmittance(c, walk.interiors, found ? hit.t : kInfinity);
         if (!found) {
+            if (c.trace) c.trace->left(walk);
             if (weight == EmissionWeight::None) return false;
             for (LightId const light : c.world.infinite_lights()) {
                 float const pdf =
                     walk.specular ? 0.0f : c.world.infinite_light_pdf(light, walk.from, c.lights, walk.ray.d);
                 float const w = emission_weight(walk, weight, pdf);
-                if (w > 0.0f)
-                    radiance += walk.beta * c.world.environment(light, origin, walk.ray.d, c.lambda) * w;
+                if (w > 0.0f) {
+                    Spectrum const seen =
+                        walk.beta * c.world.environment(light, origin, walk.ray.d, c.lambda) * w;
+                    radiance += seen;
+                    if (c.trace) c.trace->met_sky(walk, light, seen, w, pdf);
+                }
             }
             return false;
         }
@@ -116,7 +122,10 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
             if (!emitted.is_black()) {
                 float const pdf =
                     walk.specular ? 0.0f : c.world.light_pdf(hit, walk.from, c.lights, walk.ray.d);
-                radiance += walk.beta * emitted * emission_weight(walk, weight, pdf);
+                float const w = emission_weight(walk, weight, pdf);
+                Spectrum const seen = walk.beta * emitted * w;
+                radiance += seen;
+                if (c.trace) c.trace->met_light(walk, hit, seen, w, pdf);
             }
         }
         v.material = hit.material;
@@ -137,12 +146,16 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
             walk.cone += hit.t;
             continue;
         }
-        if (hit.passage == Passage::Solid) return true;
-        bool const passes = std::holds_alternative<InterfaceMaterial>(c.world.scene()[v.material].kind);
-        if (!passes) return true;
+        bool const passes = hit.passage != Passage::Solid &&
+                            std::holds_alternative<InterfaceMaterial>(c.world.scene()[v.material].kind);
+        if (!passes) {
+            if (c.trace) c.trace->arrived(walk, v);
+            return true;
+        }
         walk.ray = hit.spawn(walk.ray.d);
         walk.cone += hit.t;
     }
+    if (c.trace) c.trace->left(walk);
     return false;
 }
 
@@ -163,6 +176,7 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     v.wo_local = v.frame.to_local(-walk.ray.d);
     v.is = traits(v.bsdf);
     if (v.is.hero_only) keep_hero(walk);
+    if (c.trace) c.trace->scatters(walk, v);
     return true;
 }
 
@@ -177,15 +191,21 @@ Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool m
     Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
     if (f.is_black()) return {};
     float const passing = c.world.transmittance(v.hit, *light, c.stats);
-    if (passing == 0.0f) return {};
+    if (passing == 0.0f) {
+        if (c.trace) c.trace->occluded(walk, *light);
+        return {};
+    }
     // A delta light cannot be found by scattering: its weight is 1.
     float const w = light->delta || !mis
                         ? 1.0f
                         : power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
-    Spectrum const direct = f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
-    if (!c.world.encloses()) return direct;
-    float const distance = light->at_infinity ? kInfinity : length(light->p - v.hit.s.p);
-    return direct * transmittance(c, beyond(c, walk, v, light->wi), distance);
+    Spectrum direct = f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
+    if (c.world.encloses()) {
+        float const distance = light->at_infinity ? kInfinity : length(light->p - v.hit.s.p);
+        direct = direct * transmittance(c, beyond(c, walk, v, light->wi), distance);
+    }
+    if (c.trace) c.trace->lit(walk, *light, direct, w, passing);
+    return direct;
 }
 
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
@@ -193,6 +213,7 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf *
                         shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng));
     if (s.keep_hero) keep_hero(walk);
+    if (c.trace) c.trace->scattered(c, walk, v, s, wi);
     if (walk.beta.is_black()) return false;
     if (!walk.beta.is_finite()) {
         c.tainted = true;
@@ -223,6 +244,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
         u = c.sampler.next_2d();
     }
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, walk.mode, c.hemisphere);
+    if (!s && c.trace) c.trace->absorbed(walk);
     return s && follow(c, walk, v, *s);
 }
 
@@ -237,7 +259,9 @@ bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {
         q = throughput;
     }
     c.sampler.at(dimension::of(vertex, dimension::kRoulette));
-    if (c.sampler.next_1d() >= q) return false;
+    bool const dies = c.sampler.next_1d() >= q;
+    if (c.trace) c.trace->chance(vertex, q, dies);
+    if (dies) return false;
     walk.beta /= q;
     return true;
 }

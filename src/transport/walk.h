@@ -43,6 +43,7 @@ inline std::uint32_t of(std::uint32_t vertex, std::uint32_t which) {
 
 struct PhotonMaps;
 class NearestPhotons;
+class PathTrace;  // path_trace.h
 
 /// What a walk needs from outside; one per camera sample or light path.
 struct PathContext {
@@ -56,8 +57,9 @@ struct PathContext {
     PhotonMaps const* photons = nullptr;  // of the pass
     NearestPhotons* nearest = nullptr;    // room for a query
     bool tainted = false;                 // a throughput was not a number: the sample does not count
+    PathTrace* trace = nullptr;           // writes down what happens, where somebody asked for it
 
-    /// The same for a branch of the path, which has numbers of its own.
+    /// The same for a branch of the path, which has numbers of its own, and is not written down.
     [[nodiscard]] PathContext with(PathSampler& other) const {
         return {job, world, lambda, other, stats, hemisphere, lights, photons, nearest};
     }

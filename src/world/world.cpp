@@ -70,6 +70,8 @@ void World::complete(RawHit const& raw, SurfaceHit& hit) const {
                record.textured, hit.s);
 }
 
+Object const& World::object_at(SurfaceHit const& hit) const { return *parts_->records[hit.record].object; }
+
 float World::presence(SurfaceHit const& hit) const {
     TextureId const alpha = parts_->records[hit.record].object->alpha;
     if (!alpha.valid()) return 1.0f;

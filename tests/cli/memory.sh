@@ -46,6 +46,17 @@ refused info bomb.pbrt
     echo '"integer indices" [ 0 2 1  0 1 3  0 3 2  1 2 3 ]'
 } >fine.pbrt
 refused render fine.pbrt -o a.exr --memory-limit 1G
+# How many photons a path leaves is seen when the scene is there: many, between white walls.
+{
+    echo 'Integrator "photonmap" "integer indirectphotons" 1000000'
+    echo 'Film "rgb" "integer xresolution" 16 "integer yresolution" 12' 'Camera "perspective"' 'WorldBegin'
+    echo 'LightSource "point"' 'Material "diffuse" "rgb reflectance" [ 0.95 0.95 0.95 ]'
+    echo 'Shape "sphere" "float radius" 2'
+} >white.pbrt
+refused render white.pbrt -o a.exr --memory-limit 1G
+run 3 render white.pbrt -o a.exr --memory-limit 900T --set indirectphotons=2000000000
+says "more than a map can hold"
+rm white.pbrt
 run 0 info scene.pbrt
 prints "estimate"
 run 0 info scene.pbrt --json

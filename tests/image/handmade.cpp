@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using namespace nephroid;
 using namespace std::string_literals;
 using test::error_of;
@@ -130,6 +132,74 @@ TEST_CASE("TGA: raw and run-length encoded, all depths and origins") {
     CHECK(refusal("a.tga", tga(1, 4, 1, 8, 0x20, "\x84\xff"s)) == ErrorKind::Input);
     CHECK(refusal("a.xyz", tga(3, 1, 1, 8, 0x20, "\xff"s)) ==
           ErrorKind::Input);  // nothing but the name tells TGA
+}
+
+namespace {
+
+std::string little(std::uint32_t x, int bytes) {
+    std::string out;
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(x >> (8 * i));
+    return out;
+}
+/// `tables`: masks and palette, between the header and the rows.
+std::string bmp(int width, int height, int bits, std::uint32_t compression, std::uint32_t used,
+                std::string const& tables, std::string const& rows) {
+    auto const at = static_cast<std::uint32_t>(54 + tables.size());
+    return "BM" + little(0, 8) + little(at, 4) + little(40, 4) +
+           little(static_cast<std::uint32_t>(width), 4) + little(static_cast<std::uint32_t>(height), 4) +
+           little(1, 2) + little(static_cast<std::uint32_t>(bits), 2) + little(compression, 4) +
+           little(0, 12) + little(used, 4) + little(0, 4) + tables + rows;
+}
+
+}  // namespace
+
+TEST_CASE("BMP: all depths, rows from below and from above, palettes and masks") {
+    // BGR, rows of a multiple of four bytes, the lowest first: red below green.
+    Image const rgb = read_bytes("a.bmp", bmp(1, 2, 24, 0, 0, "", "\0\0\xff\0\0\xff\0\0"s));
+    CHECK(rgb.channels() == 3);
+    CHECK(rgb.get(0, 1, 0) == 1.0f);
+    CHECK(rgb.get(0, 0, 1) == 1.0f);
+    CHECK(read_bytes("a.bmp", bmp(1, -2, 24, 0, 0, "", "\0\0\xff\0\0\xff\0\0"s)).get(0, 0, 0) == 1.0f);
+    std::string const palette = "\0\0\xff\0\0\xff\0\0"s;  // red, green
+    Image const one = read_bytes("a.bmp", bmp(9, 1, 1, 0, 2, palette, "\x40\x80\0\0"s));
+    for (int x = 0; x < 9; ++x) CHECK(one.get(x, 0, 1) == (x == 1 || x == 8 ? 1.0f : 0.0f));
+    Image const four = read_bytes("a.bmp", bmp(3, 1, 4, 0, 2, palette, "\x01\x10\0\0"s));
+    CHECK(four.get(0, 0, 0) == 1.0f);
+    CHECK(four.get(1, 0, 1) == 1.0f);
+    CHECK(four.get(2, 0, 1) == 1.0f);
+    CHECK(read_bytes("a.bmp", bmp(2, 1, 8, 0, 2, palette, "\0\1\0\0"s)).get(1, 0, 1) == 1.0f);
+    // 5-5-5, and 5-6-5 by masks.
+    CHECK(read_bytes("a.bmp", bmp(1, 1, 16, 0, 0, "", "\x00\x7c\0\0"s)).get(0, 0, 0) == 1.0f);
+    std::string const masks = "\x00\xf8\0\0\xe0\x07\0\0\x1f\0\0\0"s;
+    CHECK(read_bytes("a.bmp", bmp(1, 1, 16, 3, 0, masks, "\xe0\x07\0\0"s)).get(0, 0, 1) == 1.0f);
+    Image const alpha = read_bytes(
+        "a.bmp", bmp(1, 1, 32, 6, 0, "\xff\0\0\0\0\xff\0\0\0\0\xff\0\0\0\0\xff"s, "\xff\0\0\x80"s));
+    CHECK(alpha.channels() == 4);
+    CHECK(alpha.get(0, 0, 0) == 1.0f);
+    CHECK(alpha.get(0, 0, 3) == doctest::Approx(128 / 255.0));
+    CHECK(read_bytes("a.bmp", bmp(1, 1, 32, 0, 0, "", "\xff\0\0\0"s)).get(0, 0, 2) == 1.0f);
+    // OS/2's header has 16-bit sizes and palettes of three bytes.
+    CHECK(read_bytes("a.bmp", "BM" + little(0, 8) + little(32, 4) + little(12, 4) + little(1, 2) +
+                                  little(1, 2) + little(1, 2) + little(1, 2) + "\0\0\xff\0\xff\0\x80\0\0\0"s)
+              .get(0, 0, 1) == 1.0f);
+}
+
+TEST_CASE("BMP: what is refused") {
+    auto const rows = std::string(8, '\0');
+    for (auto const& file : {
+             bmp(1, 2, 24, 0, 0, "", rows.substr(1)),            // truncated
+             bmp(20000, 20000, 24, 0, 0, "", rows),              // much more than there is
+             bmp(0, 2, 24, 0, 0, "", rows),                      // no pixels
+             bmp(1, 2, 8, 1, 0, std::string(1024, '\0'), rows),  // run lengths
+             bmp(1, 2, 7, 0, 0, "", rows),                       // no such depth
+             bmp(2, 1, 8, 0, 300, std::string(1200, '\0'), rows),
+             bmp(2, 1, 8, 0, 2, rows, "\2\0\0\0"s),  // colour 2 of 2
+             "BM"s,
+             "BM" + std::string(40, '\xff'),
+         })
+        CHECK(refusal("a.bmp", file) == ErrorKind::Input);
+    CHECK(refusal("a.bmp", bmp(70000, 1, 24, 0, 0, "", rows)) == ErrorKind::Limit);
+    CHECK(refusal("a.bmp", bmp(1, std::numeric_limits<int>::min(), 24, 0, 0, "", rows)) == ErrorKind::Limit);
 }
 
 TEST_CASE("the content tells the format, not the name") {

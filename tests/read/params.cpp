@@ -156,7 +156,7 @@ TEST_CASE("parameters of Attribute that an entity has with another type are skip
     auto const scene = read_world(R"(Attribute "shape" "float radius" 2
         Attribute "shape" "integer radius" 3
         Attribute "shape" "string zmin" "x"
-        Attribute "material" "float reflectance" 1
+        Attribute "material" "bool reflectance" true
         Material "conductor" Shape "sphere")");
     CHECK(shape_of<Sphere>(scene).radius == 2);
     CHECK(shape_of<Sphere>(scene).z_min == -2);

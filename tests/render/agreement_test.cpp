@@ -136,12 +136,13 @@ TEST_CASE("path tracing, photon mapping, progressive photon mapping and light tr
 
         SppmIntegrator sppm;
         sppm.max_depth = kDepth;
-        sppm.shooting = {.global_paths = 3000, .max_depth = kDepth};
+        sppm.shooting = {.global_paths = full() ? 12000 : 3000, .max_depth = kDepth};
         sppm.alpha = 1;
         Settings progressive = base;
         progressive.integrator = sppm;
         // A few photons a pass: radii that suit the scene, and are small beside what is seen of it.
-        float const radius = 0.2f * RenderJob(world, progressive).photon_plan()->global_radius;
+        float const radius =
+            (full() ? 0.1f : 0.2f) * RenderJob(world, progressive).photon_plan()->global_radius;
         Tiles const extrapolated = batches([&](std::uint64_t b) {
             auto& i = std::get<SppmIntegrator>(progressive.integrator);
             i.estimates.radius = radius;
@@ -156,7 +157,7 @@ TEST_CASE("path tracing, photon mapping, progressive photon mapping and light tr
 
         PhotonMapIntegrator gathering;
         gathering.max_depth = kDepth;
-        gathering.shooting = {.global_paths = 40000, .max_depth = kDepth};
+        gathering.shooting = {.global_paths = full() ? 400000 : 40000, .max_depth = kDepth};
         gathering.gather_samples = 4;
         Settings gathered = base;
         gathered.integrator = gathering;

@@ -119,7 +119,12 @@ TEST_CASE("whatever shapes the picture changes the scene's hash") {
             [](Scene& s) {
                 std::get<TabulatedSpd>(std::get<DielectricMaterial>(s.materials[1].kind).eta).value[1] = 1;
             },
-            [](Scene& s) { std::swap(s.materials[0], s.materials[1]); },
+            [](Scene& s) { s.world().objects[0].material = MaterialId{1}; },
+            [](Scene& s) { s.materials[0].displacement = TextureId{1}; },
+            [](Scene& s) { s.materials[1].displacement = TextureId{1}; },
+            [](Scene& s) { s.materials[0].normal_map.image = ImageId{0}; },
+            [](Scene& s) { std::get<MixMaterial>(s.materials[2].kind).amount = {}; },
+            [](Scene& s) { std::swap(s.lights[0], s.lights[1]); },
             [](Scene& s) { std::get<SpotLight>(s.lights[0].kind).power = 3; },
             [](Scene& s) { s.lights[0].to_world = scale(1, 1, -1); },
             [](Scene& s) { s.lights.pop_back(); },
@@ -135,8 +140,60 @@ TEST_CASE("whatever shapes the picture changes the scene's hash") {
                 std::get<TriangleMesh>(s.groups[1].objects[0].shape).triangles[0] = {1, 2, 0};
             },
             [](Scene& s) { std::get<TriangleMesh>(s.groups[1].objects[0].shape).n.resize(3); },
-            [](Scene& s) { s.groups.emplace_back(); },
+            [](Scene& s) { s.world().objects.push_back(s.groups[1].objects[0]); },
+            [](Scene& s) {
+                GroupId const empty = s.add(Group{});
+                s.groups[1].instances.push_back({empty});
+            },
         });
+}
+
+TEST_CASE("how things are numbered, what nothing uses and what is there twice do not enter the hash") {
+    Scene s = sample_scene();
+    std::string const before = hash(s);
+    auto& mix = std::get<MixTexture>(s.textures[3].kind);
+    auto& both = std::get<MixMaterial>(s.materials[2].kind);
+
+    // Twice.
+    mix.amount = s.add(Texture(s.textures[1]));
+    CHECK(hash(s) == before);
+    both.b = s.add(Material(s.materials[1]));
+    CHECK(hash(s) == before);
+    s.world().instances[0].group = s.add(Group(s.groups[1]));
+    CHECK(hash(s) == before);
+    s.images.push_back(s.images[0]);
+    std::get<InfiniteLight>(s.lights[1].kind).image = ImageId{1};
+    CHECK(hash(s) == before);
+    // In another order.
+    std::swap(s.textures[0], s.textures[2]);
+    std::swap(std::get<MixTexture>(s.textures[3].kind).tex1, std::get<MixTexture>(s.textures[3].kind).tex2);
+    CHECK(hash(s) == before);
+    // But what they are does.
+    std::swap(s.textures[0], s.textures[2]);
+    CHECK(hash(s) != before);
+    std::swap(s.textures[0], s.textures[2]);
+    // Unused.
+    s.groups.emplace_back();
+    s.add(Texture{ConstantFloatTexture{7}});
+    s.add(Material{InterfaceMaterial{}});
+    s.add(ImageFile{"another.png", ""});
+    CHECK(hash(s) == before);
+    // Used after all.
+    s.world().instances[0].group = GroupId{static_cast<std::uint32_t>(s.groups.size() - 1)};
+    CHECK(hash(s) != before);
+}
+
+TEST_CASE("names of nothing and of themselves do not keep the hash from coming to an end") {
+    Scene s = sample_scene();
+    std::string const before = hash(s);
+    std::get<MixMaterial>(s.materials[2].kind).a = MaterialId{2};
+    std::string const itself = hash(s);
+    CHECK(itself != before);
+    std::get<MixMaterial>(s.materials[2].kind).a = MaterialId{99};
+    CHECK(hash(s) != before);
+    CHECK(hash(s) != itself);
+    s.groups.clear();
+    CHECK(hash(s) != before);
 }
 
 TEST_CASE("places, notes, names and the sign of zero do not enter the hash") {
@@ -171,10 +228,12 @@ TEST_CASE("a picture enters by what is in the file, not by its name") {
     CHECK(hash(s) == a);
     write("b", std::string(2'999'999, 'x') + 'y');
     CHECK(hash(s) != a);
-    // Files of the system may be without an end: told by their names, though these two are the same.
+    // Files of the system may be without an end: told by their names, however those are spelled.
     s.images[0].path = "/proc/self/cmdline";
     std::string const system_file = hash(s);
     s.images[0].path = "/proc/self/./cmdline";
+    CHECK(hash(s) == system_file);
+    s.images[0].path = "/proc/self/environ";
     CHECK(hash(s) != system_file);
     s.images[0].path = folder.string();  // a folder cannot be read: its name counts
     CHECK(hash(s) != a);

@@ -50,12 +50,9 @@ PhotonCounts total(std::vector<PhotonCounts> const& by_light) {
 
 std::uint64_t paths_that_store(Setup const& setup, std::string const& directives, ShotKind kind,
                                std::uint64_t photons) {
-    constexpr std::uint64_t kPass = 1u << 20, kPaths = 20000;
-    RenderJob const job(setup.world, seeded(setup, directives, 1));
-    std::size_t const stored = shoot(job, kind, kPass, kPaths, {})->photons.size();
-    if (stored == 0) throw std::runtime_error("no photon is stored");
-    return static_cast<std::uint64_t>(
-        std::llround(static_cast<double>(photons) * kPaths / static_cast<double>(stored)));
+    double const stored = photons_per_path(RenderJob(setup.world, seeded(setup, directives, 1)), kind);
+    if (!(stored > 0)) throw std::runtime_error("no photon is stored");
+    return static_cast<std::uint64_t>(std::llround(static_cast<double>(photons) / stored));
 }
 
 Setup sized_file(std::string const& name, int width, int height) {

@@ -138,7 +138,8 @@ Picture reduced(Picture const& p, int by) {
             for (int j = 0; j < by; ++j)
                 for (int i = 0; i < by; ++i)
                     for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] += p.rgb[static_cast<std::size_t>((y * by + j) * p.width + x * by + i)][c];
+                        sum[c] += p.rgb[static_cast<std::size_t>(y * by + j) * static_cast<std::size_t>(p.width) +
+                                        static_cast<std::size_t>(x * by + i)][c];
             for (double& s : sum) s /= by * by;
             r.rgb.push_back(sum);
         }
@@ -168,6 +169,18 @@ void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
                      (label.empty() ? "picture" : label) + "](" + at + ".png) ([EXR](" + at + ".exr))";
         }
     lab.page.for_browsers(links);
+}
+
+Picture over(Image const& marks, Picture under) {
+    std::size_t i = 0;
+    for (int y = 0; y < under.height; ++y)
+        for (int x = 0; x < under.width; ++x, ++i)
+            for (int c = 0; c < 3; ++c) {
+                double& v = under.rgb[i][static_cast<std::size_t>(c)];
+                v = v * (1 - static_cast<double>(marks.get(x, y, 3))) +
+                    static_cast<double>(marks.get(x, y, c));
+            }
+    return under;
 }
 
 double exposure_for(Picture const& p, double share) {

@@ -26,6 +26,9 @@ void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
 /// Each so many pixels along an edge become one.
 Picture reduced(Picture const& p, int by);
 
+/// Marks whose colours are already times their coverage (R G B A), over a picture.
+Picture over(Image const& marks, Picture under);
+
 /// What leaves this share of the picture's pixels below white.
 double exposure_for(Picture const& p, double share = 0.99);
 

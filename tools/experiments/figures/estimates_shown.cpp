@@ -62,7 +62,9 @@ void global_counts(Lab const& lab) {
 void caustics(Lab const& lab) {
     Page& page = lab.page;
     page.subsection("The caustic map: mirror boxes, glass balls, mirror balls");
-    page.text("The report's Figure 21: caustics alone, 60 photons an estimate; each picture with an exposure of its own. Plane "
+    page.text(
+        "The report's Figure 21: caustics alone, 60 photons an estimate; each picture with an exposure of "
+        "its own. Plane "
         "mirrors throw patches, glass gathers spots, round mirrors spread the light.");
     page.code(show("caustic", 0, 100000, 60));
     int const n = lab.pixels(200);

@@ -11,23 +11,6 @@
 
 namespace nephroid::experiment {
 
-namespace {
-
-/// `marks`, whose colours are already times their coverage, over the picture.
-Picture over(Image const& marks, Picture under) {
-    std::size_t i = 0;
-    for (int y = 0; y < under.height; ++y)
-        for (int x = 0; x < under.width; ++x, ++i)
-            for (int c = 0; c < 3; ++c) {
-                double& v = under.rgb[i][static_cast<std::size_t>(c)];
-                v = v * (1 - static_cast<double>(marks.get(x, y, 3))) +
-                    static_cast<double>(marks.get(x, y, c));
-            }
-    return under;
-}
-
-}  // namespace
-
 void photons_and_paths(Lab const& lab) {
     Page& page = lab.page;
     int const n = lab.pixels(300);

@@ -36,8 +36,9 @@ Off measured(Setup const& setup, std::string const& directives, Picture const& t
         // The mean of the maps is noisy itself.
         double const off2 = std::pow(mean - truth.rgb[i][1], 2) - variance / maps;
         noise2 += variance, bias2 += off2;
-        double const x = (static_cast<double>(i % side) + 0.5) / static_cast<double>(side) - 0.25;
-        double const y = (static_cast<double>(i / side) + 0.5) / static_cast<double>(side) - 0.5;
+        std::size_t const column = i % side, row = i / side;
+        double const x = (static_cast<double>(column) + 0.5) / static_cast<double>(side) - 0.25;
+        double const y = (static_cast<double>(row) + 0.5) / static_cast<double>(side) - 0.5;
         if (std::hypot(x, y) < 0.12) off_inside += mean - truth.rgb[i][1], inside += truth.rgb[i][1];
     }
     double const mean_radiance = mean(truth);

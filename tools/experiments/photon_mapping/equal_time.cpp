@@ -25,7 +25,8 @@ Picture cut(Picture const& p, Window const& w) {
     Picture c{std::max(1, at(w.x1 - w.x0, p.width)), std::max(1, at(w.y1 - w.y0, p.height)), {}};
     for (int y = y0; y < y0 + c.height; ++y)
         for (int x = x0; x < x0 + c.width; ++x)
-            c.rgb.push_back(p.rgb[static_cast<std::size_t>(y * p.width + x)]);
+            c.rgb.push_back(p.rgb[static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
+                                  static_cast<std::size_t>(x)]);
     return c;
 }
 

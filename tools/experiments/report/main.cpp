@@ -10,6 +10,7 @@ namespace {
 using namespace nephroid::experiment;
 
 constexpr Section kSections[] = {
+    {"Figure 1. A path", path_schematic},
     {"Figures 9 and 10. Mirrors and glass", mirrors_and_glass},
     {"Figures 12 and 13. A figure as mirror and as glass", creature_in_the_box},
     {"Figures 14 and 15. A caustic, and one from a faulty basis", faulty_basis},

@@ -5,7 +5,8 @@
 
 namespace nephroid::experiment {
 
-void creature_in_the_box(Lab const& lab);  // Figures 12 and 13
+void path_schematic(Lab const& lab);       // Figure 1
+void creature_in_the_box(Lab const& lab);  // 12 and 13
 void faulty_basis(Lab const& lab);         // 14 and 15
 
 }  // namespace nephroid::experiment

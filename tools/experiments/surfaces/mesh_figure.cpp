@@ -18,11 +18,11 @@ void mesh_figure(Lab const& lab) {
                             "\nShape \"plymesh\" \"string filename\" \"meshes/knot.ply\"\nAttributeEnd\n",
                         scenes_folder());
     };
-    mesh_pictures(lab,
-                  {"knot.png", "A knot as mirror and as glass, at 10 and 50 samples a pixel, and in the limit",
-                   knot_of("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
-                           "\"metal-Ag-k\""),
-                   knot_of("Material \"dielectric\"")});
+    mesh_pictures(
+        lab, {"knot.png", "A knot as mirror and as glass, at 10 and 50 samples a pixel, and in the limit",
+              knot_of("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
+                      "\"metal-Ag-k\""),
+              knot_of("Material \"dielectric\"")});
 }
 
 }  // namespace nephroid::experiment

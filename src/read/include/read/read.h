@@ -10,8 +10,8 @@
 
 namespace nephroid {
 
-/// Reads a scene by its file's extension: .pbrt, .ply, .obj, each also with .gz behind it. A bare mesh file becomes a
-/// scene of a gray mesh under a constant sky, with a camera that frames it.
+/// Reads a scene by its file's extension: .pbrt, .ray (SBT-raytracer), .ply, .obj, each also with .gz behind it. A bare mesh
+/// file becomes a scene of a gray mesh under a constant sky, with a camera that frames it.
 /// Throws Error(Input) as "file:line: what, and what to do", Error(Limit) for files beyond the limits of bytes.h and
 /// Error(Io) when the file itself cannot be read.
 Scene read_scene(std::filesystem::path const& path);

@@ -13,7 +13,9 @@ class Digest {
   public:
     void bytes(void const* data, std::size_t size);
     void word(std::uint64_t w) { bytes(&w, sizeof w); }
-    /// 32 hexadecimal digits.
+    /// The 128 bits, which other digests may be made of.
+    [[nodiscard]] std::array<std::uint64_t, 2> words() const;
+    /// The same as 32 hexadecimal digits.
     [[nodiscard]] std::string hex() const;
 
   private:

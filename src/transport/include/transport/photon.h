@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -35,7 +36,7 @@ std::array<Bits, 2> pack_direction(Vec3 v) {
         y = (1.0f - std::abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
         x = fx;
     }
-    auto const pack = [&](float a) { return static_cast<Bits>((a * 0.5f + 0.5f) * kMost + 0.5f); };
+    auto const pack = [&](float a) { return static_cast<Bits>(std::floor((a * 0.5f + 0.5f) * kMost + 0.5f)); };
     return {pack(x), pack(y)};
 }
 /// … and back, of no particular length.
@@ -72,7 +73,7 @@ class Photon {
         if (most > 0.0f)
             for (int i = 0; i < 4; ++i)
                 ratio_[static_cast<std::size_t>(i)] =
-                    static_cast<std::uint16_t>(r.power[i] / most * kRatio + 0.5f);
+                    static_cast<std::uint16_t>(std::floor(r.power[i] / most * kRatio + 0.5f));
     }
 
     [[nodiscard]] Vec3 p() const { return p_; }

@@ -87,6 +87,8 @@ class World {
     bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const;
     /// How much of the surface is there at a hit, by its alpha: the probability with which a ray that comes by meets it, above 0.
     [[nodiscard]] float presence(SurfaceHit const& hit) const;
+    /// The scene's object that was hit: one of its groups', whichever its appearance.
+    [[nodiscard]] Object const& object_at(SurfaceHit const& hit) const;
     /// The share of light that gets from one surface point to the other (or to the light at infinity): 0 where something solid
     /// is between them, less than 1 behind mixes with interfaces. Both ends are moved off their surfaces by their error bounds.
     float transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;

@@ -10,13 +10,33 @@
 namespace nephroid {
 
 struct WriteOptions {
-    /// Only what pbrt-v4 itself knows: shapes, materials and settings of ours are replaced by the nearest thing, with a note.
-    /// Otherwise everything is kept, and reading the file gives a scene of the same hash.
+    /// Only what pbrt-v4 itself knows: shapes, materials and settings of ours are replaced by the nearest
+    /// thing, with a note. Otherwise everything is kept, and reading the file gives a scene of the same
+    /// hash.
     bool portable = false;
 };
 
-/// Writes `scene`, settings and all, as pbrt-v4 text. Large meshes become PLY files in a folder beside it, named like it; pictures and
-/// other files are named where they are. Returns what was replaced. All or nothing: throws Error(Io), or Error(Input) for what has no form in pbrt's language.
+/// A scene as files in the making.
+struct SceneText {
+    struct File {
+        std::filesystem::path path;
+        std::string bytes;
+    };
+    /// What lies beside the scene, in a folder named like it: meshes and measured lamps. Their names say
+    /// what is in them, so that a file of that name which is there already is the same.
+    std::vector<File> parts;
+    File scene;
+    std::vector<Note> notes;  // what was replaced
+};
+
+/// `scene`, settings and all, as pbrt-v4 text that is to be called `path`. Large meshes go into PLY files;
+/// pictures and other files are named where they are. Throws what validate() throws, and Error(Input) for
+/// what has no form in the language.
+SceneText pbrt_text(Scene const& scene, std::filesystem::path const& path, WriteOptions const& options = {});
+/// All of it or nothing: throws Error(Io).
+void write_files(SceneText const& text);
+
+/// Both.
 std::vector<Note> write_pbrt(Scene const& scene, std::filesystem::path const& path,
                              WriteOptions const& options = {});
 
