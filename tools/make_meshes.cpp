@@ -1,7 +1,9 @@
 // Makes the meshes and textures of our scenes: make_meshes DIR writes DIR/meshes/*.ply and DIR/textures/*.
 // What it writes is checked in; a test makes it again and compares byte by byte. So that the last bit of somebody else's
-// sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256.
-// Lengths: centimetres for the cup, metres for the water, free for the rest. z is up.
+// sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256 (and to the nearest float above).
+// Lengths: centimetres for the cup, metres for the water, millimetres for that in the Cornell box, free for the rest. z is up but there.
+
+#include "creature.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +22,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -97,6 +100,33 @@ Mesh waves() {
         }
         mesh.p.emplace_back((s - 0.5) * size, (t - 0.5) * size, h);
         mesh.n.push_back(glm::normalize(Vec3(-dx, -dy, 1)));
+    });
+    return mesh;
+}
+
+// Water in the Cornell box, up to about 180 mm deep (y is up): waves that lie flat where they meet a pane at z = 1, and grow over
+// 120 mm from there on. It reaches a little into the walls, so that there is no film of air between.
+Mesh box_water() {
+    constexpr double x0 = -6, x1 = 562, z0 = 1, z1 = 564, level = 170;
+    struct Wave {
+        double x, z, phase, height;  // radians per mm, radians, mm
+    };
+    constexpr std::array<Wave, 3> all{
+        {{0.037, 0.011, 0.3, 7}, {-0.014, 0.041, 1.9, 6}, {0.027, -0.045, 4.1, 3}}};
+    Mesh mesh;
+    add_grid(mesh, 72, 72, [&](double s, double t) {  // rows along x: triangles look up
+        double const x = x0 + (x1 - x0) * t, z = z0 + (z1 - z0) * s;
+        double const u = std::clamp((z - z0) / 120, 0.0, 1.0);
+        double const grown = u * u * (3 - 2 * u), growing = 6 * u * (1 - u) / 120;
+        double y = level, dx = 0, dz = 0;
+        for (Wave const& w : all) {
+            double const angle = w.x * x + w.z * z + w.phase;
+            y += grown * w.height * std::sin(angle);
+            dx += grown * w.height * w.x * std::cos(angle);
+            dz += w.height * (grown * w.z * std::cos(angle) + growing * std::sin(angle));
+        }
+        mesh.p.emplace_back(x, y, z);
+        mesh.n.push_back(glm::normalize(Vec3(-dx, 1, -dz)));
     });
     return mesh;
 }
@@ -359,6 +389,7 @@ int main(int argc, char** argv) try {
     }
     std::filesystem::path const dir = argv[1];
     write(dir / "meshes/waves.ply", ply(waves(), Format::Binary));
+    write(dir / "meshes/box-water.ply", ply(box_water(), Format::Binary));
     write(dir / "meshes/cup-body.ply", ply(cup_body(), Format::Binary));
     write(dir / "meshes/cup-lip.ply", ply(cup_lip(), Format::Binary));
     write(dir / "meshes/cup-handle.ply", ply(cup_handle(), Format::Binary));
@@ -367,6 +398,9 @@ int main(int argc, char** argv) try {
     write(dir / "meshes/juice.ply", ply(juice(), Format::Binary));
     write(dir / "meshes/goblet.ply", ply(goblet(), Format::Binary));
     write(dir / "meshes/wine.ply", ply(wine(), Format::Binary));
+    CreatureMesh made = creature();
+    write(dir / "meshes/creature.ply",
+          ply({std::move(made.p), std::move(made.n), {}, std::move(made.triangles)}, Format::Binary));
     write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
     write(dir / "textures/chart.tga", chart());
     return 0;

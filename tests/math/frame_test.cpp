@@ -1,6 +1,7 @@
 // Frames: orthonormal everywhere, and without an axis that they prefer.
 #include "math/frame.h"
 
+#include "faulty_bases.h"
 #include "math/vec.h"
 #include "statistics.h"
 
@@ -29,19 +30,6 @@ double frame_fault(Frame const& f) {
     fault = std::max({fault, std::abs(d(f.x, f.y)), std::abs(d(f.y, f.z)), std::abs(d(f.z, f.x))});
     // Right-handed: x × y = z.
     return std::max(fault, static_cast<double>(length(cross(f.x, f.y) - f.z)));
-}
-
-/// The classical faulty basis: crossed with a fixed axis, and never normalised. Its directions lean towards that axis.
-Frame unnormalised_basis(Vec3 n) {
-    Vec3 const axis = std::abs(n.x) > 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    Vec3 const t = cross(n, axis);
-    return {t, cross(n, t), n};
-}
-/// Another one: one tangent normalised, the other not, so that azimuths crowd about the longer one.
-Frame half_normalised_basis(Vec3 n) {
-    Vec3 const axis = std::abs(n.x) > 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    Vec3 const t = cross(n, axis);
-    return {t, cross(n, normalize(t)), n};
 }
 
 /// Directions at a fixed polar angle and evenly stepped local azimuths, over random normals. Their directions in the world must
@@ -145,4 +133,6 @@ TEST_CASE("a frame from a normal has no preferred axis") {
 TEST_CASE("control: the test of preferred axes rejects the classical faulty bases") {
     CHECK(isotropy(unnormalised_basis, 200'000, 3).first.p < 1e-6);
     CHECK(isotropy(half_normalised_basis, 200'000, 3).second.p < 1e-6);
+    CHECK(isotropy(skewed_basis, 200'000, 3).first.p < 1e-6);
+    CHECK(isotropy(skewed_basis, 200'000, 3).second.p < 1e-6);
 }

@@ -6,27 +6,19 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 namespace nephroid::experiment {
 
 namespace {
 
-constexpr int kSamples = 4;  // a pixel: what is shown is the estimate, not edges
+constexpr int kSamples = 16;  // a pixel: what is shown is the estimate, not edges
 
 std::string show(std::string const& view, std::uint64_t global, std::uint64_t caustic, int k) {
     return fmt::format(
         "Integrator \"photonmap\" \"string visualize\" \"{}\" \"integer indirectphotons\" {} \"integer "
         "causticphotons\" {} \"integer nused\" {}\nSampler \"zsobol\" \"integer pixelsamples\" {}",
         view, global, caustic, k, kSamples);
-}
-
-std::string ball(std::string const& material, char const* centre) {
-    return fmt::format(
-        "AttributeBegin\nTranslate {}\n{}\nShape \"sphere\" \"float radius\" 100\nAttributeEnd\n", centre,
-        material);
-}
-/// Two balls where those of cornell-spheres.pbrt are, both of one material.
-std::string balls(std::string const& material) {
-    return ball(material, "395 100 370") + ball(material, "175 100 200");
 }
 
 std::vector<std::string> counted(Lab const& lab, std::string const& what, std::uint64_t wanted,
@@ -45,7 +37,7 @@ void global_counts(Lab const& lab) {
     Page& page = lab.page;
     page.subsection("The global map with 10,000, 50,000 and 500,000 photons");
     int const n = lab.pixels(200);
-    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    Setup const setup = sized_file("report/16-spheres.pbrt", n, n);
     page.text(
         "The report's Figure 20. The radiance that the global map says is there, at the first surface that "
         "is not specular: direct light, caustics and all, with nothing sampled. 100 photons an estimate.");
@@ -70,32 +62,26 @@ void global_counts(Lab const& lab) {
 void caustics(Lab const& lab) {
     Page& page = lab.page;
     page.subsection("The caustic map: mirror boxes, glass balls, mirror balls");
-    page.text("The report's Figure 21: caustics alone, 60 photons an estimate.");
+    page.text(
+        "The report's Figure 21: caustics alone, 60 photons an estimate; each picture with an exposure of "
+        "its own. Plane "
+        "mirrors throw patches, glass gathers spots, round mirrors spread the light.");
     page.code(show("caustic", 0, 100000, 60));
     int const n = lab.pixels(200);
-    struct Scene {
-        std::string label;
-        Setup setup;
-    };
-    std::vector<Scene> scenes;
-    scenes.push_back({"mirror boxes", sized_file("cornell-mirror-boxes.pbrt", n, n)});
-    scenes.push_back({"glass balls", box_with(balls("Material \"dielectric\" \"float eta\" 1.5"), n)});
-    scenes.push_back(
-        {"mirror balls",
-         box_with(balls("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" "
-                        "\"metal-Ag-k\""),
-                  n)});
-    std::uint64_t const photons = lab.quick ? 4000 : 200000;
+    std::uint64_t const photons = lab.quick ? 4000 : 1000000;
     std::vector<SheetRow> sheet(1);
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
-    for (Scene const& s : scenes) {
+    for (auto const& [label, file, share] : {std::tuple{"mirror boxes", "21-mirror-boxes", 0.98},
+                                             {"glass balls", "21-glass-balls", 0.992},
+                                             {"mirror balls", "21-mirror-balls", 0.985}}) {
+        Setup const setup = sized_file(std::string("report/") + file + ".pbrt", n, n);
         std::uint64_t const paths =
-            paths_that_store(s.setup, show("caustic", 0, 1000, 60), ShotKind::Caustic, photons);
-        Run r = run(s.setup, show("caustic", 0, paths, 60), 1);
-        labels.push_back(s.label);
-        rows.push_back(counted(lab, s.label, photons, r.photons.caustic, r.seconds));
-        sheet[0].pictures.push_back(exposed(std::move(r.picture), 0.985));
+            paths_that_store(setup, show("caustic", 0, 1000, 60), ShotKind::Caustic, photons);
+        Run r = run(setup, show("caustic", 0, paths, 60), 1);
+        labels.emplace_back(label);
+        rows.push_back(counted(lab, label, photons, r.photons.caustic, r.seconds));
+        sheet[0].pictures.push_back(exposed(std::move(r.picture), share));
     }
     show_sheet(lab, "caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls",
                labels, sheet);
@@ -111,7 +97,7 @@ void both_maps(Lab const& lab) {
         "all photons, those of caustics as well; in the sum it leaves them to the other.");
     page.code(show("global|caustic|both", 50000, 50000, 88));
     int const n = lab.pixels(200);
-    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    Setup const setup = sized_file("report/16-spheres.pbrt", n, n);
     std::uint64_t const photons = lab.quick ? 1000 : 50000;
     std::string const pilot = show("both", 1000, 1000, 88);
     std::uint64_t const global = paths_that_store(setup, pilot, ShotKind::Global, photons);

@@ -6,6 +6,7 @@
 namespace nephroid::experiment {
 
 void naive_or_direct(Lab const& lab);         // Figure 5
+void mirrors_and_glass(Lab const& lab);       // Figures 9 and 10
 void whitted_and_paths(Lab const& lab);       // 16
 void photons_and_paths(Lab const& lab);       // 17 to 19
 void estimates_shown(Lab const& lab);         // 20 to 22

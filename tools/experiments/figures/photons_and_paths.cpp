@@ -21,10 +21,10 @@ void photons_and_paths(Lab const& lab) {
         "them, in 16 bits, green. All are drawn where nothing hides them from the camera. All three at "
         "once:");
     page.code(fmt::format(
-        "nephroid render scenes/cornell-spheres.pbrt -o marked.png --show-photons={} --show-paths {} "
+        "nephroid render scenes/report/16-spheres.pbrt -o marked.png --show-photons={} --show-paths {} "
         "--show-normals {}",
         photons, paths, normals));
-    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    Setup const setup = sized_file("report/16-spheres.pbrt", n, n);
     Picture under = render_picture(setup, "Integrator \"path\" \"integer maxdepth\" 8\nSampler \"zsobol\"",
                                    lab.passes(64), 1);
     under = exposed(std::move(under), 0.93);

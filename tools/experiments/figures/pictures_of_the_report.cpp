@@ -1,7 +1,6 @@
 // Whole pictures with the report's own settings (Figures 23 to 25), and their times next to the report's.
 #include "figures.h"
 #include "runs.h"
-#include "water.h"
 
 #include "sheet.h"
 
@@ -46,10 +45,10 @@ void pictures_of_the_report(Lab const& lab) {
     int const n = lab.pixels(256);
     std::uint64_t const fewer = lab.quick ? 100 : 1;
     std::vector<Figure> figures;
-    figures.push_back({23, "spheres", sized_file("cornell-spheres.pbrt", n, n), 44000, 500000, 88, 4, 4});
-    figures.push_back(
-        {24, "reflective boxes", sized_file("cornell-mirror-boxes.pbrt", n, n), 604000, 220000, 445, 4, 16});
-    figures.push_back({25, "water", box_with(water_in_the_box(), n), 440000, 524000, 120, 6, 16});
+    figures.push_back({23, "spheres", sized_file("report/16-spheres.pbrt", n, n), 44000, 500000, 88, 4, 4});
+    figures.push_back({24, "reflective boxes", sized_file("report/21-mirror-boxes.pbrt", n, n), 604000,
+                       220000, 445, 4, 16});
+    figures.push_back({25, "water", sized_file("report/25-water.pbrt", n, n), 440000, 524000, 120, 6, 16});
     SheetRow row{"", {}, 1};
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;

@@ -19,13 +19,14 @@ void whitted_and_paths(Lab const& lab) {
     };
     std::string const sampler = "\nSampler \"zsobol\"";
     std::string const path = "Integrator \"path\" \"integer maxdepth\" 16" + sampler;
-    std::vector<Way> const ways{
-        {"whitted, 25", "Integrator \"whitted\" \"integer maxdepth\" 16" + sampler, 25},
-        {"path, 1", path, 1},
-        {"path, 25", path, 25}};
+    std::string const whitted = "Integrator \"whitted\" \"integer maxdepth\" 16" + sampler;
+    std::vector<Way> const ways{{"whitted, 1", whitted, 1},
+                                {"whitted, 25", whitted, 25},
+                                {"path, 1", path, 1},
+                                {"path, 25", path, 25}};
     page.code("Integrator \"whitted|path\" \"integer maxdepth\" 16" + sampler);
     int const n = lab.pixels(176);
-    Setup const setup = sized_file("cornell-spheres.pbrt", n, n);
+    Setup const setup = sized_file("report/16-spheres.pbrt", n, n);
     std::uint64_t const many = lab.passes(512);
     Reference const reference = reference_by_samples(setup, path, many);
     SheetRow row{"", {}, exposure_for(reference.picture, 0.93)};
@@ -46,8 +47,9 @@ void whitted_and_paths(Lab const& lab) {
     show_sheet(lab, "whitted.png",
                "The Cornell box with a silver and a glass ball: Whitted's tracer and path tracing", labels,
                {row});
-    page.table({fmt::format("`scenes/cornell-spheres.pbrt`, {0} × {0}", n), "mean radiance", "error", "time"},
-               table);
+    page.table(
+        {fmt::format("`scenes/report/16-spheres.pbrt`, {0} × {0}", n), "mean radiance", "error", "time"},
+        table);
     page.text(
         "What is left of noise after so many samples of path tracing is the caustic below the glass ball "
         "and on the wall: there a path from the camera has to meet the lamp by chance.");

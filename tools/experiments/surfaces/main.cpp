@@ -3,6 +3,7 @@
 #include "sections.h"
 
 #include "experiment.h"
+#include "figures.h"
 
 namespace {
 

@@ -6,7 +6,6 @@
 namespace nephroid::experiment {
 
 void material_balls(Lab const& lab);
-void mirrors_and_glass(Lab const& lab);
 void mesh_figure(Lab const& lab);
 void roughness_sweep(Lab const& lab);
 void white_furnace(Lab const& lab);

@@ -1,16 +1,16 @@
 // Delta reflection and refraction (Figures 9 and 10 of the report), with Fresnel's equations and without; and the equations
 // themselves, read off a sphere under a white sky.
-#include "sections.h"
+#include "figures.h"
+#include "runs.h"
 
-#include "measure.h"
 #include "model/fresnel.h"
 #include "plot.h"
 #include "sheet.h"
-#include "stage.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace nephroid::experiment {
@@ -18,41 +18,37 @@ namespace nephroid::experiment {
 namespace {
 
 struct Way {
-    std::string label, material;
+    std::string label, file;
 };
-std::vector<Way> const& ways() {
-    static std::vector<Way> const all{
-        {"mirror, f=1", R"(Material "conductor" "float roughness" 0 "rgb eta" [ 0 0 0 ] "rgb k" [ 0 0 0 ])"},
-        {"silver", R"(Material "conductor" "spectrum eta" "metal-Ag-eta" "spectrum k" "metal-Ag-k")"},
-        {"copper", R"(Material "conductor")"},
-        {"glass, f=0",
-         R"(Material "metallicroughness" "float metallic" 0 "float roughness" 0 "float transmission" 1 "bool thinwalled" false "float specular" 0)"},
-        {"glass 1.5", R"(Material "dielectric")"},
-        {"diamond 2.42", R"(Material "dielectric" "float eta" 2.42)"}};
-    return all;
-}
+std::array<Way, 6> const kWays{{{"mirror, f=1", "09-mirror"},
+                                {"silver", "09-silver"},
+                                {"copper", "09-copper"},
+                                {"glass, f=0", "10-glass-without-fresnel"},
+                                {"glass 1.5", "10-glass"},
+                                {"diamond 2.42", "10-diamond"}}};
 
 void pictures(Lab const& lab) {
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
+    lab.page.code(directives);
     std::uint64_t const passes = lab.passes(400);
     SheetRow row{"", {}, 1};
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
-    for (Way const& w : ways()) {
-        Setup const setup =
-            faithful(cornell(lab.pixels(100)) + "AttributeBegin\nTranslate 278 170 300\n" + w.material +
-                         "\nShape \"sphere\" \"float radius\" 150\nAttributeEnd\n",
-                     scenes_folder());
-        row.pictures.push_back(render_picture(setup, directives, passes, 1));
+    for (Way const& w : kWays) {
+        Setup setup = prepare_file("report/" + w.file + ".pbrt");
+        setup.settings.film.resolution = {lab.pixels(100), lab.pixels(100)};
+        Run r = run(setup, directives, passes);
         labels.push_back(w.label);
-        rows.push_back({w.label + ": `" + w.material + "`", number(mean(row.pictures.back()))});
+        rows.push_back({w.label + ": `scenes/report/" + w.file + ".pbrt`", number(mean(r.picture)),
+                        time_taken(lab, r.seconds)});
+        row.pictures.push_back(std::move(r.picture));
     }
     row.exposure = exposure_for(row.pictures.front(), 0.9);
     show_sheet(lab, "delta.png",
                "A sphere in the Cornell box: mirrors and glasses, with Fresnel's equations "
                "and without",
                labels, {row});
-    lab.page.table({"", "mean radiance"}, rows);
+    lab.page.table({"", "mean radiance", "time"}, rows);
     lab.page.text(
         fmt::format("{} samples a pixel. Without Fresnel's equations a mirror throws back all light, and a "
                     "glass lets all "
@@ -75,7 +71,7 @@ Profile profile(Lab const& lab, std::string const& name, std::string const& mate
                     "LookAt 0 -4 0  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" [ 0 1 "
                     "-0.001 0.001 ]\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n",
                     n) +
-            material + "\n" + stage::unit_sphere(),
+            material + "\n" + "Shape \"sphere\"\n",
         ".");
     std::uint64_t const passes = lab.passes(4096);
     Picture const p = render_picture(setup, "Integrator \"path\"\nSampler \"zsobol\"", passes, 1);
