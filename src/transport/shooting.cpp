@@ -217,8 +217,8 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
 
 double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths) {
     if (paths == 0 || !job.photon_plan()) return 0;
-    return static_cast<double>(shoot(job, kind, kPilotPass, paths, {})->photons.size()) /
-           static_cast<double>(paths);
+    std::optional<Shot> const shot = shoot(job, kind, kPilotPass, paths, {});
+    return shot ? static_cast<double>(shot->photons.size()) / static_cast<double>(paths) : 0;
 }
 
 double expected_photons(RenderJob const& job) {
