@@ -1,7 +1,7 @@
-// Every scene of scenes/ at 64 x 48 pixels, put into 18 numbers that a table remembers (tests/scenes/thumbnails.tsv).
+// Every scene of scenes/ at 64 x 48 pixels, put into 54 numbers that a table remembers (tests/scenes/thumbnails.tsv).
 //
 // A thumbnail is rendered in batches: renders of a few passes under seeds of their own, by the scene's integrator, with few photons.
-// Of each batch 18 numbers are taken; the table holds their mean and standard deviation over batches of the table's own seeds. A
+// Of each batch 54 numbers are taken; the table holds their mean and standard deviation over batches of the table's own seeds. A
 // scene is held against its row by what chance allows both: nothing is said of samples, only of the distribution that they have.
 //
 // Numbers are taken of y = x / (1 + x), x being the batch's linear rgb: bounded, so that light that is found by chance alone
@@ -18,9 +18,9 @@
 
 namespace nephroid::test {
 
-/// Means of red, green, blue; of 4 x 3 fields' luminance, row by row; 10th, 50th and 90th percentile of 4 x 4 blocks' luminance.
-inline constexpr std::size_t kNumbers = 18;
-inline constexpr std::size_t kFirstField = 3, kFirstPercentile = 15;
+/// Means of red, green, blue; of 8 x 6 fields' luminance, row by row; 10th, 50th and 90th percentile of 4 x 4 blocks' luminance.
+inline constexpr std::size_t kNumbers = 54;
+inline constexpr std::size_t kFirstField = 3, kFirstPercentile = 51;
 using Numbers = std::array<double, kNumbers>;
 
 struct Row {
