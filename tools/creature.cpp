@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
-namespace {
+namespace meshes {
 
-using Vec3 = glm::dvec3;
+namespace {
 
 /// From a sphere of radius ra around a to one of radius rb around b, which melts into what came before it over the width `blend`.
 struct Limb {
@@ -115,7 +115,7 @@ Vec3 corner(int i, int j, int k) { return kLow + kCell * Vec3(i, j, k); }
 
 class Net {
   public:
-    CreatureMesh make() {
+    Mesh make() {
         sample();
         add_points();
         add_faces();
@@ -221,9 +221,11 @@ class Net {
     Field field_;
     std::vector<double> values_;
     std::vector<std::int32_t> points_;
-    CreatureMesh mesh_;
+    Mesh mesh_;
 };
 
 }  // namespace
 
-CreatureMesh creature() { return Net().make(); }
+Mesh creature() { return Net().make(); }
+
+}  // namespace meshes

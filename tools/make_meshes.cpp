@@ -1,55 +1,27 @@
-// Makes the meshes and textures of our scenes: make_meshes DIR writes DIR/meshes/*.ply and DIR/textures/*.
+// Makes the meshes and textures of our scenes: make_meshes DIR writes DIR/meshes/*.ply, DIR/textures/* and DIR/include/valley/*.
 // What it writes is checked in; a test makes it again and compares byte by byte. So that the last bit of somebody else's
 // sin() does not matter, every number is rounded to a multiple of 2^-16, which a float holds exactly below 256 (and to the nearest float above).
 // Lengths: centimetres for the cup, metres for the water, millimetres for that in the Cornell box, free for the rest. z is up but there.
 
 #include "creature.h"
+#include "mesh.h"
+#include "valley.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <numbers>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
+using namespace meshes;
+
 namespace {
-
-using Vec2 = glm::dvec2;
-using Vec3 = glm::dvec3;
-constexpr double kPi = std::numbers::pi;
-
-struct Mesh {
-    std::vector<Vec3> p, n;
-    std::vector<Vec2> uv;  // empty, or one per point
-    std::vector<std::array<std::int32_t, 3>> triangles;
-};
-
-// A surface over a grid of (columns + 1) * (rows + 1) points. `at(s, t)` adds the point of s, t in [0, 1].
-// Triangles run counter-clockwise as seen from the side where dp/ds x dp/dt points.
-void add_grid(Mesh& mesh, int columns, int rows, std::function<void(double, double)> const& at) {
-    auto const first = static_cast<std::int32_t>(mesh.p.size());
-    for (int j = 0; j <= rows; ++j)
-        for (int i = 0; i <= columns; ++i) at(double(i) / columns, double(j) / rows);
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            std::int32_t const a = first + j * (columns + 1) + i, b = a + 1, c = a + columns + 1, d = c + 1;
-            mesh.triangles.push_back({a, b, d});
-            mesh.triangles.push_back({a, d, c});
-        }
-}
 
 /// A point (r, z) of a profile, and the outward normal there in the same plane.
 struct ProfilePoint {
@@ -309,50 +281,6 @@ Mesh knot() {
     return mesh;
 }
 
-float rounded(double x) { return static_cast<float>(std::round(x * 65536) / 65536) + 0.0f; }
-
-void little_endian(std::string& out, std::uint32_t bits) {
-    for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i) & 0xFF);
-}
-
-enum class Format { Ascii, Binary };
-
-std::string ply(Mesh const& mesh, Format format) {
-    bool const binary = format == Format::Binary, uv = !mesh.uv.empty();
-    std::string out = std::string("ply\nformat ") + (binary ? "binary_little_endian" : "ascii") + " 1.0\n";
-    out += "comment made by tools/make_meshes.cpp\nelement vertex " + std::to_string(mesh.p.size()) + "\n";
-    for (char const* name : {"x", "y", "z", "nx", "ny", "nz"})
-        out += std::string("property float ") + name + "\n";
-    if (uv) out += "property float u\nproperty float v\n";
-    out += "element face " + std::to_string(mesh.triangles.size()) + "\n";
-    out += "property list uchar int vertex_indices\nend_header\n";
-
-    auto number = [&](double x) {
-        if (binary) {
-            little_endian(out, std::bit_cast<std::uint32_t>(rounded(x)));
-        } else {
-            std::array<char, 40> text{};
-            std::snprintf(text.data(), text.size(), "%.9g ", static_cast<double>(rounded(x)));
-            out += text.data();
-        }
-    };
-    for (std::size_t i = 0; i < mesh.p.size(); ++i) {
-        for (int k = 0; k < 3; ++k) number(mesh.p[i][k]);
-        for (int k = 0; k < 3; ++k) number(mesh.n[i][k]);
-        if (uv) number(mesh.uv[i].x), number(mesh.uv[i].y);
-        if (!binary) out.back() = '\n';
-    }
-    for (auto const& [a, b, c] : mesh.triangles) {
-        if (binary) {
-            out += '\3';
-            for (std::int32_t index : {a, b, c}) little_endian(out, static_cast<std::uint32_t>(index));
-        } else {
-            out += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
-        }
-    }
-    return out;
-}
-
 // A chart for the eye to find (u, v) on: red grows with u, green with v, lines every eighth, a frame, and one white corner
 // at (0, 0). 64 x 64 pixels, TGA without compression, lowest row first.
 std::string chart() {
@@ -384,7 +312,10 @@ void write(std::filesystem::path const& path, std::string const& bytes) {
 
 int main(int argc, char** argv) try {
     if (argc != 2) {
-        std::fputs("usage: make_meshes DIR   writes DIR/meshes/*.ply and DIR/textures/*.tga\n", stderr);
+        std::fputs(
+            "usage: make_meshes DIR   writes DIR/meshes/*.ply, DIR/textures/*.tga, "
+            "DIR/include/valley/*.pbrt\n",
+            stderr);
         return 2;
     }
     std::filesystem::path const dir = argv[1];
@@ -398,11 +329,13 @@ int main(int argc, char** argv) try {
     write(dir / "meshes/juice.ply", ply(juice(), Format::Binary));
     write(dir / "meshes/goblet.ply", ply(goblet(), Format::Binary));
     write(dir / "meshes/wine.ply", ply(wine(), Format::Binary));
-    CreatureMesh made = creature();
-    write(dir / "meshes/creature.ply",
-          ply({std::move(made.p), std::move(made.n), {}, std::move(made.triangles)}, Format::Binary));
+    write(dir / "meshes/creature.ply", ply(creature(), Format::Binary));
     write(dir / "meshes/fir.ply", ply(fir(), Format::Ascii));
     write(dir / "textures/chart.tga", chart());
+    write(dir / "meshes/spruce.ply", ply(spruce(), Format::Binary));
+    write(dir / "meshes/valley.ply", ply(valley_ground(), Format::Binary));
+    write(dir / "textures/snow-line.tga", snow_line());
+    write(dir / "include/valley/woods.pbrt", valley_woods());
     return 0;
 } catch (std::exception const& error) {
     std::fprintf(stderr, "make_meshes: %s\n", error.what());
