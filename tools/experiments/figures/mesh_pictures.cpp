@@ -10,7 +10,7 @@ namespace nephroid::experiment {
 void mesh_pictures(Lab const& lab, MeshFigure const& figure) {
     std::string const directives = "Integrator \"path\" \"integer maxdepth\" 16\nSampler \"zsobol\"";
     lab.page.code(directives);
-    std::uint64_t const many = lab.passes(320);
+    std::uint64_t const many = lab.passes(figure.half);
     Vec2i const size = figure.mirror.settings.film.resolution;
     std::vector<SheetRow> sheet;
     std::vector<std::vector<std::string>> rows;

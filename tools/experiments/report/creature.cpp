@@ -17,7 +17,7 @@ void creature_in_the_box(Lab const& lab) {
     MeshFigure const figure{
         "creature.png",
         "A toy creature as mirror and as glass, at 10 and 50 samples a pixel, and in the limit",
-        scene("12-creature-mirror"), scene("13-creature-glass")};
+        scene("12-creature-mirror"), scene("13-creature-glass"), 96};
     lab.page.text(
         "A figure of silver, and of glass, in the Cornell box. The report had a toy dinosaur; this is a "
         "creature of "
