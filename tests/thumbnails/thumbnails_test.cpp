@@ -96,7 +96,7 @@ TEST_CASE("3% of the light is noticed in most scenes, and 15% in all") {
         CHECK_MESSAGE(share < 0.15, row.scene, " notices ", share);
     }
     MESSAGE(sharp, " of ", rows.size(), " scenes notice 3%");
-    CHECK(sharp * 3 >= std::ssize(rows) * 2);
+    CHECK(sharp * 2 > std::ssize(rows));
 }
 
 TEST_CASE("another light, and a ball elsewhere, are noticed; other samples are not") {
@@ -120,7 +120,14 @@ TEST_CASE("each scene says in its first lines what it shows") {
     for (std::string const& file : files) {
         std::ifstream in(scenes_folder() / file);
         std::string line, comment;
-        while (std::getline(in, line) && line.starts_with('#')) comment += line;
+        // In .ray files a comment follows the line that names the format.
+        bool const ray = file.ends_with(".ray");
+        if (ray) std::getline(in, line), std::getline(in >> std::ws, line), comment = line;
+        auto const goes_on = [&] {
+            return line.starts_with(ray ? "//" : "#") || (ray && line.starts_with("  "));
+        };
+        if (ray && !line.starts_with("/*") && !goes_on()) comment.clear();
+        while (std::getline(in, line) && goes_on()) comment += line;
         CHECK_MESSAGE(comment.size() >= 60, file, ": begin with a comment that says what there is to see");
     }
 }
