@@ -35,10 +35,12 @@ std::array<Figure, 2> const kFigures{
        {"diamond 2.42", "10-diamond"}}}}};
 
 void pictures(Lab const& lab) {
-    std::string const directives =
-        "Integrator \"photonmap\" \"integer indirectphotons\" 200000 \"integer causticphotons\" 600000 "
-        "\"integer nused\" 80 \"integer maxspeculardepth\" 16 \"integer finalgathersamples\" 4\n"
-        "Sampler \"zsobol\" \"integer pixelsamples\" 36";
+    std::string const directives = fmt::format(
+        "Integrator \"photonmap\" \"integer indirectphotons\" {} \"integer causticphotons\" {} \"integer "
+        "nused\" "
+        "80 \"integer maxspeculardepth\" 16 \"integer finalgathersamples\" 4\n"
+        "Sampler \"zsobol\" \"integer pixelsamples\" 36",
+        lab.quick ? 2000 : 200000, lab.quick ? 6000 : 600000);
     lab.page.code(directives);
     std::vector<std::vector<std::string>> rows;
     double exposure = 0;

@@ -27,7 +27,7 @@ namespace {
 
 // What scenes/report/14-caustic.pbrt holds.
 constexpr float kLampHeight = 4, kLampSide = 0.3f, kBallHeight = 1.35f, kEta = 1.5f;
-constexpr float kHalf = 2;        // of the part of the floor that is drawn
+constexpr float kHalf = 0.6f;     // of the part of the floor that is drawn
 constexpr int kMostBounces = 12;  // within the ball
 
 using Basis = Frame (*)(Vec3);
@@ -168,7 +168,8 @@ void faulty_basis(Lab const& lab) {
     Setup setup = sized_file("report/14-caustic.pbrt", n, n);
     std::string const directives =
         "Integrator \"photonmap\" \"integer indirectphotons\" 100000 \"integer causticphotons\" 1000000 "
-        "\"integer nused\" 60 \"integer finalgathersamples\" 1\nSampler \"zsobol\" \"integer pixelsamples\" "
+        "\"integer nused\" 60 \"bool finalgather\" false
+Sampler \"zsobol\" \"integer pixelsamples\" "
         "16";
     page.code(directives);
     setup.settings = with(setup.settings, directives);
