@@ -168,8 +168,7 @@ void faulty_basis(Lab const& lab) {
     Setup setup = sized_file("report/14-caustic.pbrt", n, n);
     std::string const directives =
         "Integrator \"photonmap\" \"integer indirectphotons\" 100000 \"integer causticphotons\" 1000000 "
-        "\"integer nused\" 60 \"bool finalgather\" false
-Sampler \"zsobol\" \"integer pixelsamples\" "
+        "\"integer nused\" 60 \"bool finalgather\" false\nSampler \"zsobol\" \"integer pixelsamples\" "
         "16";
     page.code(directives);
     setup.settings = with(setup.settings, directives);
