@@ -138,7 +138,7 @@ namespace {
 
 std::string little(std::uint32_t x, int bytes) {
     std::string out;
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(x >> (8 * i));
+    for (int i = 0; i < bytes; ++i, x >>= 8) out += static_cast<char>(x & 0xFF);
     return out;
 }
 /// `tables`: masks and palette, between the header and the rows.

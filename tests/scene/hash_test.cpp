@@ -151,13 +151,14 @@ TEST_CASE("whatever shapes the picture changes the scene's hash") {
 TEST_CASE("how things are numbered, what nothing uses and what is there twice do not enter the hash") {
     Scene s = sample_scene();
     std::string const before = hash(s);
-    auto& mix = std::get<MixTexture>(s.textures[3].kind);
-    auto& both = std::get<MixMaterial>(s.materials[2].kind);
+    // Looked up anew each time: adding may move them.
+    auto const mix = [&]() -> MixTexture& { return std::get<MixTexture>(s.textures[3].kind); };
+    auto const both = [&]() -> MixMaterial& { return std::get<MixMaterial>(s.materials[2].kind); };
 
     // Twice.
-    mix.amount = s.add(Texture(s.textures[1]));
+    mix().amount = s.add(Texture(s.textures[1]));
     CHECK(hash(s) == before);
-    both.b = s.add(Material(s.materials[1]));
+    both().b = s.add(Material(s.materials[1]));
     CHECK(hash(s) == before);
     s.world().instances[0].group = s.add(Group(s.groups[1]));
     CHECK(hash(s) == before);
