@@ -232,7 +232,8 @@ TEST_CASE("pictures that cannot be are refused before memory is taken for them, 
     CHECK(contains(error_of(scene_of({{folder.file("none.png"), ""}})), "none.png"));
     CHECK(contains(error_of(scene_of({{folder.file(""), ""}})), "scene.pbrt:1: "));  // a folder
     refused("empty.png", "");
-    CHECK(contains(refused("text.png", "this is no picture"), "PNG, JPEG, EXR, HDR, PFM, BMP and TGA are read"));
+    CHECK(contains(refused("text.png", "this is no picture"),
+                   "PNG, JPEG, EXR, HDR, PFM, BMP and TGA are read"));
     refused("zero.pfm", "PF\n0 4\n-1\n");
     refused("zero.png", png_header(0, 16));
     refused("wide.png", png_header(70000, 1));

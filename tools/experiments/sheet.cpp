@@ -138,8 +138,9 @@ Picture reduced(Picture const& p, int by) {
             for (int j = 0; j < by; ++j)
                 for (int i = 0; i < by; ++i)
                     for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] += p.rgb[static_cast<std::size_t>(y * by + j) * static_cast<std::size_t>(p.width) +
-                                        static_cast<std::size_t>(x * by + i)][c];
+                        sum[c] +=
+                            p.rgb[static_cast<std::size_t>(y * by + j) * static_cast<std::size_t>(p.width) +
+                                  static_cast<std::size_t>(x * by + i)][c];
             for (double& s : sum) s /= by * by;
             r.rgb.push_back(sum);
         }

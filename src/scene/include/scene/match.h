@@ -26,7 +26,8 @@ decltype(auto) match(Variant&& v, F&&... f) {
     case (I):            \
         if constexpr ((I) < kCount) return overloads(*std::get_if<(I)>(&v));
 #define NEPHROID_FIVE_CASES(I) \
-    NEPHROID_CASE(I) NEPHROID_CASE((I) + 1) NEPHROID_CASE((I) + 2) NEPHROID_CASE((I) + 3) NEPHROID_CASE((I) + 4)
+    NEPHROID_CASE(I)           \
+    NEPHROID_CASE((I) + 1) NEPHROID_CASE((I) + 2) NEPHROID_CASE((I) + 3) NEPHROID_CASE((I) + 4)
     switch (v.index()) {
         NEPHROID_FIVE_CASES(0)
         NEPHROID_FIVE_CASES(5)

@@ -36,7 +36,9 @@ std::array<Bits, 2> pack_direction(Vec3 v) {
         y = (1.0f - std::abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
         x = fx;
     }
-    auto const pack = [&](float a) { return static_cast<Bits>(std::floor((a * 0.5f + 0.5f) * kMost + 0.5f)); };
+    auto const pack = [&](float a) {
+        return static_cast<Bits>(std::floor((a * 0.5f + 0.5f) * kMost + 0.5f));
+    };
     return {pack(x), pack(y)};
 }
 /// … and back, of no particular length.
