@@ -112,6 +112,12 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
         p.integer("octaves", k.octaves, 8);
         p.number("roughness", k.roughness, 0.5f);
     };
+    // Two inputs, with what they are where nothing is said.
+    auto const between = [&](auto const& k, float tex1, float tex2) {
+        spectra = is_spectrum(k.tex1);
+        input(p, "tex1", k.tex1, spectra, role, tex1, where);
+        input(p, "tex2", k.tex2, spectra, role, tex2, where);
+    };
     char const* const kind = match(
         t.kind,
         [&](ConstantFloatTexture const& k) {
@@ -141,7 +147,6 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             return "imagemap";
         },
         [&](CheckerboardTexture const& k) {
-            spectra = is_spectrum(k.tex1);
             p.integer("dimension", k.dimension, 2);
             if (k.dimension == 2 ? !is_identity(k.world_to_texture) : !is_plain(k.mapping))
                 refuse(where, "a checkerboard with the mapping of another dimension");
@@ -151,8 +156,7 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             } else {
                 from_world = k.world_to_texture;
             }
-            input(p, "tex1", k.tex1, spectra, role, 1, where);
-            input(p, "tex2", k.tex2, spectra, role, 0, where);
+            between(k, 1, 0);
             return "checkerboard";
         },
         [&](ScaleTexture const& k) {
@@ -162,16 +166,12 @@ void Writer::write_texture(std::string const& name, Texture const& t, SpectrumRo
             return "scale";
         },
         [&](MixTexture const& k) {
-            spectra = is_spectrum(k.tex1);
-            input(p, "tex1", k.tex1, spectra, role, 0, where);
-            input(p, "tex2", k.tex2, spectra, role, 1, where);
+            between(k, 0, 1);
             number(p, "amount", k.amount, 0.5f, where);
             return "mix";
         },
         [&](DirectionMixTexture const& k) {
-            spectra = is_spectrum(k.tex1);
-            input(p, "tex1", k.tex1, spectra, role, 0, where);
-            input(p, "tex2", k.tex2, spectra, role, 1, where);
+            between(k, 0, 1);
             if (!portable_ && !is_unit(k.dir)) refuse(where, "a direction that is not of length 1");
             p.vector("dir", k.dir);
             return "directionmix";

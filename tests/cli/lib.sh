@@ -62,3 +62,29 @@ Material "diffuse"
 Translate 0 -1 0
 Shape "disk" "float radius" 5 "float hieght" 0
 SCENE
+# room: a scene of a lamp over a floor with a glass ball on it, closed in by a box, of the material that stdin sets last.
+room() {
+    cat <<'SCENE'
+LookAt 0 1 -2.9  0 0.4 0  0 1 0
+Camera "perspective" "float fov" 60
+Film "rgb" "integer xresolution" 40 "integer yresolution" 30 "string filename" "room.exr"
+Sampler "sobol" "integer pixelsamples" 2
+Integrator "path" "integer maxdepth" 7
+WorldBegin
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 9 8 4 ]
+Translate 0 2.9 0
+Rotate 90 1 0 0
+Shape "disk" "float radius" 0.5
+AttributeEnd
+SCENE
+    cat
+    cat <<'SCENE'
+AttributeBegin
+ReverseOrientation
+Shape "box" "point3 lo" [ -3 -0.5 -3 ] "point3 hi" [ 3 3 3 ]
+AttributeEnd
+Material "dielectric"
+Shape "sphere" "float radius" 0.5
+SCENE
+}

@@ -3,31 +3,13 @@
 ply_rows=$(realpath "$2")
 source "$(dirname "$0")/lib.sh"
 # A lamp over a floor with a glass ball on it, closed in by a box.
-cat >room.pbrt <<'SCENE'
-LookAt 0 1 -2.9  0 0.4 0  0 1 0
-Camera "perspective" "float fov" 60
-Film "rgb" "integer xresolution" 40 "integer yresolution" 30 "string filename" "room.exr"
-Sampler "sobol" "integer pixelsamples" 2
-Integrator "path" "integer maxdepth" 7
-WorldBegin
-AttributeBegin
-AreaLightSource "diffuse" "rgb L" [ 9 8 4 ]
-Translate 0 2.9 0
-Rotate 90 1 0 0
-Shape "disk" "float radius" 0.5
-AttributeEnd
+room >room.pbrt <<'SCENE'
 AttributeBegin
 AreaLightSource "diffuse" "rgb L" [ 1 2 3 ]
 Translate -2 0.5 0
 Shape "sphere" "float radius" 0.1
 AttributeEnd
 Material "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]
-AttributeBegin
-ReverseOrientation
-Shape "box" "point3 lo" [ -3 -0.5 -3 ] "point3 hi" [ 3 3 3 ]
-AttributeEnd
-Material "dielectric"
-Shape "sphere" "float radius" 0.5
 SCENE
 run 0 info room.pbrt
 prints "notes       none"

@@ -2,27 +2,9 @@
 # replay.sh PROGRAM: one sample's path on the command line: printed, drawn, and the same as what a render of that pass has there.
 source "$(dirname "$0")/lib.sh"
 # A lamp over a floor with a glass ball and a mirror on it, closed in by a box.
-cat >room.pbrt <<'SCENE'
-LookAt 0 1 -2.9  0 0.4 0  0 1 0
-Camera "perspective" "float fov" 60
-Film "rgb" "integer xresolution" 40 "integer yresolution" 30 "string filename" "room.exr"
-Sampler "sobol" "integer pixelsamples" 2
-Integrator "path" "integer maxdepth" 7
-WorldBegin
-AttributeBegin
-AreaLightSource "diffuse" "rgb L" [ 9 8 4 ]
-Translate 0 2.9 0
-Rotate 90 1 0 0
-Shape "disk" "float radius" 0.5
-AttributeEnd
+room >room.pbrt <<'SCENE'
 MakeNamedMaterial "wall" "string type" "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]
 NamedMaterial "wall"
-AttributeBegin
-ReverseOrientation
-Shape "box" "point3 lo" [ -3 -0.5 -3 ] "point3 hi" [ 3 3 3 ]
-AttributeEnd
-Material "dielectric"
-Shape "sphere" "float radius" 0.5
 SCENE
 
 # Words: the vertices with their places in the file, and nothing is rendered.

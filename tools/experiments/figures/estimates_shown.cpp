@@ -33,6 +33,14 @@ std::vector<std::string> counted(Lab const& lab, std::string const& what, std::u
 }
 std::vector<std::string> const kCounts{"", "wanted", "emitted", "stored", "stored per path", "time"};
 
+/// One of the maps, with about so many photons.
+Run map_seen(Setup const& setup, ShotKind kind, std::uint64_t photons, int k) {
+    auto const directives = [&](std::uint64_t paths) {
+        return kind == ShotKind::Caustic ? show("caustic", 0, paths, k) : show("global", paths, 0, k);
+    };
+    return run(setup, directives(paths_that_store(setup, directives(1000), kind, photons)), 1);
+}
+
 void global_counts(Lab const& lab) {
     Page& page = lab.page;
     page.subsection("The global map with 10,000, 50,000 and 500,000 photons");
@@ -47,9 +55,7 @@ void global_counts(Lab const& lab) {
     std::vector<std::vector<std::string>> rows;
     for (std::uint64_t const wanted : {10000u, 50000u, 500000u}) {
         std::uint64_t const photons = lab.quick ? wanted / 50 : wanted;
-        std::uint64_t const paths =
-            paths_that_store(setup, show("global", 1000, 0, 100), ShotKind::Global, photons);
-        Run r = run(setup, show("global", paths, 0, 100), 1);
+        Run r = map_seen(setup, ShotKind::Global, photons, 100);
         labels.push_back(thousands(wanted) + " photons");
         rows.push_back(counted(lab, "global map", photons, r.photons.global, r.seconds));
         row.pictures.push_back(std::move(r.picture));
@@ -76,9 +82,7 @@ void caustics(Lab const& lab) {
                                              {"glass balls", "21-glass-balls", 0.9945},
                                              {"mirror balls", "21-mirror-balls", 0.985}}) {
         Setup const setup = sized_file(std::string("report/") + file + ".pbrt", n, n);
-        std::uint64_t const paths =
-            paths_that_store(setup, show("caustic", 0, 1000, 60), ShotKind::Caustic, photons);
-        Run r = run(setup, show("caustic", 0, paths, 60), 1);
+        Run r = map_seen(setup, ShotKind::Caustic, photons, 60);
         labels.emplace_back(label);
         rows.push_back(counted(lab, label, photons, r.photons.caustic, r.seconds));
         sheet[0].pictures.push_back(exposed(std::move(r.picture), share));
