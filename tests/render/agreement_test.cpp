@@ -118,67 +118,68 @@ void check_agreement(std::string const& scene, std::string const& name, Tiles co
     CHECK(std::abs(sum_b / sum_a - 1) < (full() ? 0.001 : 0.01) + slack);
 }
 
+void check_subject(Subject const& subject) {
+    int const more = full() ? 16 : 1;
+    Scene scene = read_scene(std::string(NEPHROID_SOURCE_DIR "/scenes/") + subject.file + ".pbrt");
+    World const world = compile(std::move(scene));
+    Settings base = world.scene().settings;
+    base.filter = BoxFilter{};
+    base.color = ColorMode::Rgb;
+    base.film.resolution = {picture_size(), picture_size()};
+    base.film.crop.reset();
+    base.film.max_component = kInfinity;
+    constexpr int kDepth = 24;
+
+    Settings path = base;
+    path.integrator = PathIntegrator{.max_depth = kDepth};
+    int const path_passes = static_cast<int>(24.0f * subject.caustic_noise) * more;
+    Tiles const expected =
+        batches([&](std::uint64_t b) { return render_tiles(world, path, path_passes, 100 + b); });
+
+    SppmIntegrator sppm;
+    sppm.max_depth = kDepth;
+    sppm.shooting = {.global_paths = full() ? 50000 : 3000, .max_depth = kDepth};
+    sppm.alpha = 1;
+    Settings progressive = base;
+    progressive.integrator = sppm;
+    int const passes = full() ? 64 : 12;
+    // A few photons a pass: radii that suit the scene, and are small beside what is seen of it.
+    float const radius = (full() ? 0.1f : 0.2f) * RenderJob(world, progressive).photon_plan()->global_radius;
+    if (!subject.open) {
+        Tiles const extrapolated = batches([&](std::uint64_t b) {
+            auto& i = std::get<SppmIntegrator>(progressive.integrator);
+            i.estimates.radius = radius;
+            auto const wide = render_tiles(world, progressive, passes, 200 + b);
+            i.estimates.radius = radius / 2;
+            auto narrow = render_tiles(world, progressive, passes, 200 + b);
+            for (std::size_t k = 0; k < narrow.size(); ++k)
+                for (std::size_t c = 0; c < 3; ++c) narrow[k][c] = 2 * narrow[k][c] - wide[k][c];
+            return narrow;
+        });
+        check_agreement(subject.file, "sppm", expected, extrapolated, full() ? 0.002 : 0.01);
+    }
+
+    PhotonMapIntegrator gathering;
+    gathering.max_depth = kDepth;
+    gathering.shooting = {.global_paths = full() ? 400000 : 40000, .max_depth = kDepth};
+    gathering.gather_samples = 4;
+    Settings gathered = base;
+    gathered.integrator = gathering;
+    gathered.spp = 4 * more;
+    Tiles const by_maps = batches([&](std::uint64_t b) { return render_tiles(world, gathered, 1, 300 + b); });
+    check_agreement(subject.file, "photonmap", expected, by_maps, 0.02);
+
+    if (!subject.light_paths) return;
+    Settings lights = base;
+    lights.integrator = LightPathIntegrator{.max_depth = kDepth, .paths = 20000};
+    Tiles const by_light =
+        batches([&](std::uint64_t b) { return render_tiles(world, lights, 4 * more, 400 + b); });
+    check_agreement(subject.file, "lightpath", expected, by_light, 0);
+}
+
 }  // namespace
 
 TEST_CASE("path tracing, photon mapping, progressive photon mapping and light tracing agree") {
-    int const more = full() ? 16 : 1;
-    for (Subject const& subject : subjects()) {
-        Scene scene = read_scene(std::string(NEPHROID_SOURCE_DIR "/scenes/") + subject.file + ".pbrt");
-        World const world = compile(std::move(scene));
-        Settings base = world.scene().settings;
-        base.filter = BoxFilter{};
-        base.color = ColorMode::Rgb;
-        base.film.resolution = {picture_size(), picture_size()};
-        base.film.crop.reset();
-        base.film.max_component = kInfinity;
-        constexpr int kDepth = 24;
-
-        Settings path = base;
-        path.integrator = PathIntegrator{.max_depth = kDepth};
-        int const path_passes = static_cast<int>(24.0f * subject.caustic_noise) * more;
-        Tiles const expected =
-            batches([&](std::uint64_t b) { return render_tiles(world, path, path_passes, 100 + b); });
-
-        SppmIntegrator sppm;
-        sppm.max_depth = kDepth;
-        sppm.shooting = {.global_paths = full() ? 50000 : 3000, .max_depth = kDepth};
-        sppm.alpha = 1;
-        Settings progressive = base;
-        progressive.integrator = sppm;
-        int const passes = full() ? 64 : 12;
-        // A few photons a pass: radii that suit the scene, and are small beside what is seen of it.
-        float const radius =
-            (full() ? 0.1f : 0.2f) * RenderJob(world, progressive).photon_plan()->global_radius;
-        if (!subject.open) {
-            Tiles const extrapolated = batches([&](std::uint64_t b) {
-                auto& i = std::get<SppmIntegrator>(progressive.integrator);
-                i.estimates.radius = radius;
-                auto const wide = render_tiles(world, progressive, passes, 200 + b);
-                i.estimates.radius = radius / 2;
-                auto narrow = render_tiles(world, progressive, passes, 200 + b);
-                for (std::size_t k = 0; k < narrow.size(); ++k)
-                    for (std::size_t c = 0; c < 3; ++c) narrow[k][c] = 2 * narrow[k][c] - wide[k][c];
-                return narrow;
-            });
-            check_agreement(subject.file, "sppm", expected, extrapolated, full() ? 0.002 : 0.01);
-        }
-
-        PhotonMapIntegrator gathering;
-        gathering.max_depth = kDepth;
-        gathering.shooting = {.global_paths = full() ? 400000 : 40000, .max_depth = kDepth};
-        gathering.gather_samples = 4;
-        Settings gathered = base;
-        gathered.integrator = gathering;
-        gathered.spp = 4 * more;
-        Tiles const by_maps =
-            batches([&](std::uint64_t b) { return render_tiles(world, gathered, 1, 300 + b); });
-        check_agreement(subject.file, "photonmap", expected, by_maps, 0.02);
-
-        if (!subject.light_paths) continue;
-        Settings lights = base;
-        lights.integrator = LightPathIntegrator{.max_depth = kDepth, .paths = 20000};
-        Tiles const by_light =
-            batches([&](std::uint64_t b) { return render_tiles(world, lights, 4 * more, 400 + b); });
-        check_agreement(subject.file, "lightpath", expected, by_light, 0);
-    }
+    // One by name: --subcase=cup
+    for (Subject const& subject : subjects()) SUBCASE(subject.file) check_subject(subject);
 }
