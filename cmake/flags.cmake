@@ -13,6 +13,8 @@ target_compile_options(nephroid_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(nephroid_flags INTERFACE -Wno-psabi -Wno-restrict)  # g++ 12 sees overlaps in std::string that are none
 endif()
+# The sanitizer presets compile six files of a room as one (CMAKE_UNITY_BUILD): instrumented headers are slow to compile, and a
+# name that two files of a room define each for itself shows up there. That every file includes what it needs, the others show.
 if(NEPHROID_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(nephroid_flags INTERFACE -Wno-maybe-uninitialized)  # instrumented variants look uninitialised to g++ 12

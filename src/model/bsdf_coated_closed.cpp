@@ -22,7 +22,7 @@ namespace nephroid {
 
 namespace {
 
-float alpha_of(Microfacets const& m) { return m.smooth() ? 0.0f : std::sqrt(m.ax * m.ay); }
+float mean_alpha(Microfacets const& m) { return m.smooth() ? 0.0f : std::sqrt(m.ax * m.ay); }
 
 /// All that does not depend on the second direction. Directions are above.
 struct Coated {
@@ -31,7 +31,7 @@ struct Coated {
     LayerBoundary boundary;
 
     explicit Coated(ClosedCoatedConductorBsdf const& m)
-        : b(m), coat(alpha_of(m.coat)), base(alpha_of(m.base)), boundary(m.coat_eta, m.coat) {}
+        : b(m), coat(mean_alpha(m.coat)), base(mean_alpha(m.base)), boundary(m.coat_eta, m.coat) {}
 
     /// Microfacets of the lobe of n meetings.
     [[nodiscard]] Microfacets lobe(int n) const {

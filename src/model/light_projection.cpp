@@ -54,7 +54,7 @@ Spectrum intensity(ProjectionLight const& l, LightData const& d, Assets const& a
     Vec3 const rgb = colour(l, assets, nearest_texel(assets.pyramid(l.image).level(0), *st));
     return rgb_to_spectrum(rgb, SpectrumRole::Unbounded, lambda) * d.emission.sample(lambda);
 }
-float density(LightData const& d, Vec3 w) {
+float beam_density(LightData const& d, Vec3 w) {
     Vec3 const local = local_direction(d, w);
     auto const st = to_picture(d, local);
     return st ? d.table->distribution.pdf(*st) / element(d, local) * direction_density(d, local) : 0.0f;
@@ -110,12 +110,12 @@ std::optional<EmissionSample> sample_emission(ProjectionLight const& l, LightDat
                                               Vec2 u_direction, Wavelengths const& lambda) {
     Vec3 const local = to_direction(d, d.table->distribution.sample(u_direction));
     Vec3 const w = normalize(d.to_world.vector(local));
-    return emission_from_point(d, w, intensity(l, d, assets, w, lambda), density(d, w));
+    return emission_from_point(d, w, intensity(l, d, assets, w, lambda), beam_density(d, w));
 }
 
 EmissionDensity emission_density(ProjectionLight const&, LightData const& d, BoundingSphere const&, Vec3,
                                  Vec3 w) {
-    return {0.0f, density(d, w)};
+    return {0.0f, beam_density(d, w)};
 }
 
 std::optional<LightBounds> light_bounds(ProjectionLight const&, LightData const& d, Assets const&) {

@@ -9,8 +9,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 // Relative spectral distributions of the daylight components S0, S1 and S2 (Judd, MacAdam & Wyszecki 1964; CIE 15, table T.2),
 // 300 to 830 nm by 10 nm, linear between.
 constexpr int kBasisFirst = 300, kBasisStep = 10, kBasisCount = 54;

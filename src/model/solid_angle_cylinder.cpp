@@ -6,8 +6,6 @@ namespace nephroid {
 
 namespace {
 
-float below_one(double x) { return clamp(static_cast<float>(x), 0.0f, kOneMinusEpsilon); }
-
 /// Sines and cosines of i / N quarter turns (`around`: half turns), made by the compiler from the series.
 template <std::size_t N>
 struct Turns {

@@ -23,8 +23,6 @@ constexpr std::array<double, N> squared_cosines() {
     return r;
 }
 
-float below_one(double x) { return clamp(static_cast<float>(x), 0.0f, kOneMinusEpsilon); }
-
 }  // namespace
 
 std::optional<DiskSeen> seen(Disk const& shape, Vec3 from, EmittingSides sides) {

@@ -12,7 +12,6 @@ double squared_length(Vec3 v) {
     double const z = v.z;
     return x * x + y * y + z * z;
 }
-float below_one(double x) { return clamp(static_cast<float>(x), 0.0f, kOneMinusEpsilon); }
 }  // namespace
 
 std::optional<SphereSeen> seen(Sphere const& shape, Vec3 from, EmittingSides sides) {

@@ -17,10 +17,10 @@ namespace {
 constexpr std::int64_t kMostAngles = 10'000;
 constexpr std::int64_t kMostValues = 4'000'000;  // every quarter of a degree would be 10^6
 
-constexpr std::string_view kBlanks = " \t\r\v\f\x1a";  // with the end of file of DOS
+constexpr std::string_view kDosBlanks = " \t\r\v\f\x1a";  // with the end of file of DOS
 std::string_view trimmed(std::string_view s) {
-    s.remove_prefix(std::min(s.find_first_not_of(kBlanks), s.size()));
-    return s.substr(0, s.find_last_not_of(kBlanks) + 1);
+    s.remove_prefix(std::min(s.find_first_not_of(kDosBlanks), s.size()));
+    return s.substr(0, s.find_last_not_of(kDosBlanks) + 1);
 }
 bool same_letters(std::string_view a, std::string_view upper) {
     return a.size() == upper.size() && std::equal(a.begin(), a.end(), upper.begin(), [](char x, char y) {

@@ -10,7 +10,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kSpaceOrTab = " \t";
 constexpr std::size_t kMaxParams = 1000;
 
 /// Messages quote what was found.
@@ -90,8 +90,8 @@ class ListParser {
         std::string const text = tokens_.decode(token);
         std::string_view rest = text;
         auto const word = [&rest] {
-            rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-            auto const w = rest.substr(0, rest.find_first_of(kBlanks));
+            rest.remove_prefix(std::min(rest.find_first_not_of(kSpaceOrTab), rest.size()));
+            auto const w = rest.substr(0, rest.find_first_of(kSpaceOrTab));
             rest.remove_prefix(w.size());
             return w;
         };

@@ -17,10 +17,6 @@ float unit_interval(double x) {
     float const f = static_cast<float>(x);
     return f > 0.0f ? (f < 1.0f ? f : 1.0f) : 0.0f;
 }
-float below_one(double x) {
-    float const f = static_cast<float>(x);
-    return f > 0.0f ? (f < kOneMinusEpsilon ? f : kOneMinusEpsilon) : 0.0f;
-}
 
 /// Of [x0, x1] x [y0, y1] at the distance z, r the distances of its corners. Two triangles, each by tan(angle / 2) = V / D (Van
 /// Oosterom and Strackee 1983). V, six times the volume, is the same for both and has no cancellation, however small it is. The

@@ -40,11 +40,6 @@ double one_minus_cos(Vec3d p, Vec3d q) {
     return glm::dot(x, x) / (n * (n + d));
 }
 
-float below_one(double x) {
-    float const f = static_cast<float>(x);
-    return f > 0.0f ? (f < kOneMinusEpsilon ? f : kOneMinusEpsilon) : 0.0f;
-}
-
 }  // namespace
 
 SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : a_(a), b_(b), c_(c) {

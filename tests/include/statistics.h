@@ -28,6 +28,8 @@ inline constexpr double kSanitizerRoom =
 inline constexpr int kSanitizerShare = 1;
 inline constexpr double kSanitizerRoom = 1;
 #endif
+inline constexpr double kPiD = 3.14159265358979323846;
+
 /// The number of samples of a test: `quick` by default.
 inline int samples(int quick, int when_full) {
     return full() ? when_full : std::max(1, quick / kSanitizerShare);

@@ -15,12 +15,6 @@ using namespace nephroid::test;
 
 namespace {
 
-struct D3 {
-    double x, y, z;
-};
-double dot(D3 a, D3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-D3 to_d(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
 /// The surface as an equation f = 0 in exact units of length near it, and what of it exists.
 double off_surface(Sphere const& s, D3 p) { return std::sqrt(dot(p, p)) - static_cast<double>(s.radius); }
 double off_surface(Cylinder const& s, D3 p) { return std::hypot(p.x, p.y) - static_cast<double>(s.radius); }

@@ -1,4 +1,5 @@
 // Daylight: the paper's formulas, computed here once more in double; densities; what arrives and what is sent out.
+#include "lights.h"
 #include "model/light.h"
 #include "spectrum/color.h"
 #include "support.h"
@@ -51,8 +52,6 @@ SunSkyLight day(float turbidity, double elevation_degrees, bool sun = true, bool
     l.sky = sky;
     return l;
 }
-
-double luminance_of(Spectrum rgb) { return static_cast<double>(luminance({rgb[0], rgb[1], rgb[2]})); }
 
 /// As the film sees spectral radiance.
 struct Xyz {
@@ -115,8 +114,6 @@ double hemisphere(F const& f, int n = 300) {
         }
     return sum * 2 * kPiD / (n * n);
 }
-
-Mat4 turned() { return *rotate(50, 1, 2, 3); }
 
 double const kReal = 0.2665 * kPiD / 180;  // the sun's radius
 

@@ -3,6 +3,7 @@
 
 #include "math/frame.h"
 #include "model/assets.h"
+#include "model/texture.h"
 #include "scene/scene.h"
 #include "statistics.h"
 
@@ -15,7 +16,14 @@
 
 namespace nephroid::test {
 
-inline constexpr double kPiD = 3.14159265358979323846;
+/// A point or vector in double, for definitions written out.
+struct D3 {
+    double x, y, z;
+};
+inline double dot(D3 a, D3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline D3 to_d(Vec3 v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 inline Vec3 random_direction(Random& r) {
     double const z = r.uniform(-1, 1);
@@ -23,6 +31,11 @@ inline Vec3 random_direction(Random& r) {
     double const s = std::sqrt(1 - z * z);
     return normalize(Vec3{static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)),
                           static_cast<float>(z)});
+}
+inline TexturePoint at_point(Vec3 p, Vec3 dx = Vec3{0}, Vec3 dy = Vec3{0}) {
+    TexturePoint t;
+    t.p = p, t.dpdx = dx, t.dpdy = dy;
+    return t;
 }
 inline Vec2 random_square(Random& r) {
     float const x = r.unit();

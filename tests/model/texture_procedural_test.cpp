@@ -16,11 +16,6 @@ TexturePoint at(Vec2 uv, Vec2 dx = {0, 0}, Vec2 dy = {0, 0}) {
     p.uv = uv, p.duv_dx = dx, p.duv_dy = dy;
     return p;
 }
-TexturePoint at_point(Vec3 p, Vec3 dx = Vec3{0}, Vec3 dy = Vec3{0}) {
-    TexturePoint t;
-    t.p = p, t.dpdx = dx, t.dpdy = dy;
-    return t;
-}
 Vec3 random_point(Random& r, double size) {
     Vec3 p;
     for (int i = 0; i < 3; ++i) p[i] = static_cast<float>(r.uniform(-size, size));

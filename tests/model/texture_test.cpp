@@ -37,11 +37,6 @@ TexturePoint at(float u, float v) {
     p.uv = {u, v};
     return p;
 }
-TexturePoint at_point(Vec3 p) {
-    TexturePoint t;
-    t.p = p;
-    return t;
-}
 
 Bsdf bsdf_of(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda) {
     Bsdf bsdf;

@@ -8,12 +8,12 @@ using namespace nephroid::test;
 
 namespace {
 
-Settings settings(std::string const& text) { return read(text + "\nWorldBegin").settings; }
+Settings settings_of(std::string const& text) { return read(text + "\nWorldBegin").settings; }
 PhotonMapIntegrator photon_map(std::string const& parameters) {
-    return as<PhotonMapIntegrator>(settings("Integrator \"photonmap\" " + parameters).integrator);
+    return as<PhotonMapIntegrator>(settings_of("Integrator \"photonmap\" " + parameters).integrator);
 }
 SppmIntegrator sppm(std::string const& parameters) {
-    return as<SppmIntegrator>(settings("Integrator \"sppm\" " + parameters).integrator);
+    return as<SppmIntegrator>(settings_of("Integrator \"sppm\" " + parameters).integrator);
 }
 
 }  // namespace
@@ -89,35 +89,37 @@ TEST_CASE("sppm and lightpath have pbrt-v4's names") {
     CHECK(sppm("\"integer photonsperiteration\" 0").shooting.global_paths == -1);
     CHECK(sppm("\"integer photonsperiteration\" -1").shooting.global_paths == -1);
     CHECK(sppm("\"integer maxphotondepth\" 3").shooting.max_depth == 3);
-    CHECK(settings("Sampler \"sobol\" \"integer seed\" 7 Integrator \"sppm\" \"integer seed\" 3").seed == 7);
-    CHECK(settings("Option \"seed\" 5 Integrator \"sppm\" \"integer seed\" 3").seed == 3);
+    CHECK(settings_of("Sampler \"sobol\" \"integer seed\" 7 Integrator \"sppm\" \"integer seed\" 3").seed ==
+          7);
+    CHECK(settings_of("Option \"seed\" 5 Integrator \"sppm\" \"integer seed\" 3").seed == 3);
     CHECK(contains(notes(read("Integrator \"path\" \"integer seed\" 3 WorldBegin")), "seed"));
 
     auto const l = as<LightPathIntegrator>(
-        settings("Integrator \"lightpath\" \"integer maxdepth\" 4 \"integer lightpaths\" 99").integrator);
+        settings_of("Integrator \"lightpath\" \"integer maxdepth\" 4 \"integer lightpaths\" 99").integrator);
     CHECK(l.max_depth == 4);
     CHECK(l.paths == 99);
-    CHECK(as<LightPathIntegrator>(settings("Integrator \"lightpath\"").integrator).paths == -1);
+    CHECK(as<LightPathIntegrator>(settings_of("Integrator \"lightpath\"").integrator).paths == -1);
 }
 
 TEST_CASE("colours follow the integrator unless they are chosen") {
-    CHECK(settings("Integrator \"photonmap\"").color == ColorMode::Rgb);
-    CHECK(settings("Integrator \"sppm\"").color == ColorMode::Spectral);
-    CHECK(settings("Integrator \"lightpath\"").color == ColorMode::Spectral);
-    CHECK(settings("Integrator \"path\"").color == ColorMode::Spectral);
+    CHECK(settings_of("Integrator \"photonmap\"").color == ColorMode::Rgb);
+    CHECK(settings_of("Integrator \"sppm\"").color == ColorMode::Spectral);
+    CHECK(settings_of("Integrator \"lightpath\"").color == ColorMode::Spectral);
+    CHECK(settings_of("Integrator \"path\"").color == ColorMode::Spectral);
     // In either order, and whatever the number of passes.
-    CHECK(settings("Option \"color\" \"spectral\" Integrator \"photonmap\"").color == ColorMode::Spectral);
-    CHECK(settings("Integrator \"photonmap\" \"integer passes\" 500 Option \"color\" \"spectral\"").color ==
-          ColorMode::Spectral);
-    CHECK(settings("Integrator \"photonmap\" \"integer passes\" 500").color == ColorMode::Rgb);
-    CHECK(settings("Option \"color\" \"rgb\" Integrator \"sppm\"").color == ColorMode::Rgb);
-    CHECK(settings("Integrator \"photonmap\" Integrator \"path\"").color == ColorMode::Spectral);
+    CHECK(settings_of("Option \"color\" \"spectral\" Integrator \"photonmap\"").color == ColorMode::Spectral);
+    CHECK(
+        settings_of("Integrator \"photonmap\" \"integer passes\" 500 Option \"color\" \"spectral\"").color ==
+        ColorMode::Spectral);
+    CHECK(settings_of("Integrator \"photonmap\" \"integer passes\" 500").color == ColorMode::Rgb);
+    CHECK(settings_of("Option \"color\" \"rgb\" Integrator \"sppm\"").color == ColorMode::Rgb);
+    CHECK(settings_of("Integrator \"photonmap\" Integrator \"path\"").color == ColorMode::Spectral);
 }
 
 TEST_CASE("the samples of a pixel are shared out among the passes of photonmap") {
     auto const shared = [](std::string const& spp, std::string const& passes) {
-        auto const s = settings("Sampler \"sobol\" \"integer pixelsamples\" " + spp +
-                                " Integrator \"photonmap\" \"integer passes\" " + passes);
+        auto const s = settings_of("Sampler \"sobol\" \"integer pixelsamples\" " + spp +
+                                   " Integrator \"photonmap\" \"integer passes\" " + passes);
         return std::pair(samples_per_pass(s), wanted_passes(s));
     };
     CHECK(shared("16", "1") == std::pair(16, 1));
@@ -127,14 +129,14 @@ TEST_CASE("the samples of a pixel are shared out among the passes of photonmap")
     CHECK(shared("2147483647", "2147483647") == std::pair(1, 2147483647));
     // What a pass is does not depend on how many there are.
     auto const hash_of = [](std::string const& spp, std::string const& passes) {
-        auto s = settings("Sampler \"sobol\" \"integer pixelsamples\" " + spp +
-                          " Integrator \"photonmap\" \"integer passes\" " + passes);
+        auto s = settings_of("Sampler \"sobol\" \"integer pixelsamples\" " + spp +
+                             " Integrator \"photonmap\" \"integer passes\" " + passes);
         s.integrator_where = s.sampler_where = {};
         return hash(s);
     };
     CHECK(hash_of("8", "2") == hash_of("16", "4"));
     CHECK(hash_of("8", "2") != hash_of("8", "4"));
-    auto given = settings("Integrator \"sppm\"");
+    auto given = settings_of("Integrator \"sppm\"");
     auto const before = hash(given);
     given.color_given = true;
     CHECK(hash(given) == before);

@@ -11,13 +11,13 @@ using namespace nephroid::test;
 
 namespace {
 
-TriangleMesh mesh(std::string const& bytes) {
+TriangleMesh ply_mesh(std::string const& bytes) {
     Folder const folder;
     return shape_of<TriangleMesh>(read_scene(folder.write("m.ply", bytes)));
 }
 /// The message, from the mesh file's name on.
-std::string error(std::string const& bytes) {
-    auto const message = error_of([&] { mesh(bytes); });
+std::string ply_error(std::string const& bytes) {
+    auto const message = error_of([&] { ply_mesh(bytes); });
     auto const at = message.rfind("m.ply");
     return at == std::string::npos ? message : message.substr(at);
 }
@@ -35,20 +35,20 @@ std::string ascii(std::string const& vertex_lines, std::string const& face_lines
            "\nproperty list uchar int vertex_indices\nend_header\n" + vertex_lines + face_lines;
 }
 
-constexpr char const* kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+constexpr char const* kSquarePoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 }  // namespace
 
 TEST_CASE("ascii, polygons become fans") {
-    auto const m = mesh(ascii(kSquare, "4 0 1 2 3\n3 0 1 2\n", 4, 2));
+    auto const m = ply_mesh(ascii(kSquarePoints, "4 0 1 2 3\n3 0 1 2\n", 4, 2));
     CHECK(m.p == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     CHECK(m.triangles == std::vector<Vec3i>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
     CHECK(m.n.empty());
     CHECK(m.uv.empty());
     std::string crlf;
-    for (char const c : ascii(kSquare, "4 0 1 2 3\n", 4, 1))
+    for (char const c : ascii(kSquarePoints, "4 0 1 2 3\n", 4, 1))
         crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
-    CHECK(mesh(crlf).triangles.size() == 2);
+    CHECK(ply_mesh(crlf).triangles.size() == 2);
 }
 
 TEST_CASE("binary of both byte orders, any order and type of properties, extra elements") {
@@ -82,60 +82,62 @@ TEST_CASE("binary of both byte orders, any order and type of properties, extra e
             append<float>(bytes, 0.25f, big);
             append<float>(bytes, 0.75f, big);
         }
-        auto const m = mesh(bytes);
+        auto const m = ply_mesh(bytes);
         CHECK(m.p == std::vector<Vec3>{{0, 0, 0.5f}, {1, -1, 1.5f}, {2, -2, 2.5f}});
         CHECK(m.n == std::vector<Vec3>(3, Vec3{0, 0, 1}));
         CHECK(m.uv == std::vector<Vec2>(3, Vec2{0.25f, 0.75f}));
         CHECK(m.triangles == std::vector<Vec3i>{{2, 1, 0}});
-        CHECK(error(bytes.substr(0, bytes.size() - 1)) ==
+        CHECK(ply_error(bytes.substr(0, bytes.size() - 1)) ==
               "m.ply: vertex 2: the file ends before its elements do");
     }
 }
 
 TEST_CASE("small faces are left out and noted") {
     Folder const folder;
-    auto const scene = read_scene(folder.write("m.ply", ascii(kSquare, "2 0 1\n0\n3 0 1 2\n", 4, 3)));
+    auto const scene = read_scene(folder.write("m.ply", ascii(kSquarePoints, "2 0 1\n0\n3 0 1 2\n", 4, 3)));
     CHECK(shape_of<TriangleMesh>(scene).triangles.size() == 1);
     CHECK(contains(notes(scene), "2 faces of fewer than three vertices were left out"));
 }
 
 TEST_CASE("what is no PLY") {
-    CHECK(error("") == "m.ply:1: the file ends before \"end_header\"");
-    CHECK(error("plyx\n") == "m.ply:1: the file does not begin with \"ply\"");
-    CHECK(error("ply\nend_header\n") == "m.ply:2: the header has no \"format\" line");
-    CHECK(error("ply\nformat ascii 2.0\n") == "m.ply:2: only version 1.0 of PLY is known");
-    CHECK(contains(error("ply\nformat text 1.0\n"), "m.ply:2: format \"text\""));
-    CHECK(contains(error("ply\nformat ascii 1.0\nelement vertex -1\n"),
+    CHECK(ply_error("") == "m.ply:1: the file ends before \"end_header\"");
+    CHECK(ply_error("plyx\n") == "m.ply:1: the file does not begin with \"ply\"");
+    CHECK(ply_error("ply\nend_header\n") == "m.ply:2: the header has no \"format\" line");
+    CHECK(ply_error("ply\nformat ascii 2.0\n") == "m.ply:2: only version 1.0 of PLY is known");
+    CHECK(contains(ply_error("ply\nformat text 1.0\n"), "m.ply:2: format \"text\""));
+    CHECK(contains(ply_error("ply\nformat ascii 1.0\nelement vertex -1\n"),
                    "m.ply:3: an element needs a name and a count"));
-    CHECK(contains(error("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n"),
+    CHECK(contains(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n"),
                    "m.ply:4: unknown property type \"real\""));
-    CHECK(contains(error("ply\nformat ascii 1.0\nproperty float x\n"),
+    CHECK(contains(ply_error("ply\nformat ascii 1.0\nproperty float x\n"),
                    "m.ply:3: a property before any element"));
-    CHECK(contains(error("ply\nformat ascii 1.0\nhello\n"), "m.ply:3: unknown keyword \"hello\""));
+    CHECK(contains(ply_error("ply\nformat ascii 1.0\nhello\n"), "m.ply:3: unknown keyword \"hello\""));
     CHECK(contains(
-        error("ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n"),
+        ply_error(
+            "ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n"),
         "no \"vertex\" element"));
-    CHECK(contains(error(ascii(kSquare, "", 4, 0)), "no faces"));
+    CHECK(contains(ply_error(ascii(kSquarePoints, "", 4, 0)), "no faces"));
 }
 
 TEST_CASE("counts and indices are not believed") {
-    CHECK(contains(error(ascii(kSquare, "3 0 1 2\n", 1000000000, 1)),
+    CHECK(contains(ply_error(ascii(kSquarePoints, "3 0 1 2\n", 1000000000, 1)),
                    "m.ply:5: 1000000000 elements \"vertex\" do not fit"));
-    CHECK(contains(error(ascii(kSquare, "3 0 1 2\n", 4, 1000000000)),
+    CHECK(contains(ply_error(ascii(kSquarePoints, "3 0 1 2\n", 4, 1000000000)),
                    "m.ply:9: 1000000000 elements \"face\" do not fit"));
-    CHECK(error(ascii(kSquare, "3 0 1 4\n", 4, 1)) ==
+    CHECK(ply_error(ascii(kSquarePoints, "3 0 1 4\n", 4, 1)) ==
           "m.ply: triangle 0: vertex index 4 is out of range; there are 4 vertices");
-    CHECK(error(ascii(kSquare, "3 0 1 -1\n", 4, 1)) == "m.ply:16: a vertex index is out of range");
-    CHECK(error(ascii(kSquare, "3 0 1 99999999999\n", 4, 1)) == "m.ply:16: a vertex index is out of range");
-    CHECK(error(ascii(kSquare, "3 0 1 2.5\n", 4, 1)) == "m.ply:16: \"2.5\" is not an integer");
-    CHECK(error(ascii(kSquare, "255 0 1 2\n", 4, 1)) ==
+    CHECK(ply_error(ascii(kSquarePoints, "3 0 1 -1\n", 4, 1)) == "m.ply:16: a vertex index is out of range");
+    CHECK(ply_error(ascii(kSquarePoints, "3 0 1 99999999999\n", 4, 1)) ==
+          "m.ply:16: a vertex index is out of range");
+    CHECK(ply_error(ascii(kSquarePoints, "3 0 1 2.5\n", 4, 1)) == "m.ply:16: \"2.5\" is not an integer");
+    CHECK(ply_error(ascii(kSquarePoints, "255 0 1 2\n", 4, 1)) ==
           "m.ply:16: a list of 255 runs off the end of the file");
-    CHECK(error(ascii("0 0 0\n1 nan 0\n1 1 0\n", "3 0 1 2\n", 3, 1)) ==
+    CHECK(ply_error(ascii("0 0 0\n1 nan 0\n1 1 0\n", "3 0 1 2\n", 3, 1)) ==
           "m.ply:13: \"nan\" is not a finite number");
-    CHECK(error(ascii("0 0 0\n1 1e39 0\n1 1 0\n", "3 0 1 2\n", 3, 1)) ==
+    CHECK(ply_error(ascii("0 0 0\n1 1e39 0\n1 1 0\n", "3 0 1 2\n", 3, 1)) ==
           "m.ply:13: property \"y\" is not a finite number");
-    CHECK(
-        contains(error(ascii("0 0 0\n1 1 0\n1.000000 0", "", 3, 0)), "the file ends before its elements do"));
+    CHECK(contains(ply_error(ascii("0 0 0\n1 1 0\n1.000000 0", "", 3, 0)),
+                   "the file ends before its elements do"));
 }
 
 TEST_CASE("quads that are not flat are noted, once a mesh") {

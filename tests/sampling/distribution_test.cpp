@@ -11,7 +11,7 @@ using namespace nephroid::test;
 
 namespace {
 
-float const kExtremes[] = {0.0f, 0x1p-32f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+float const kEnds[] = {0.0f, 0x1p-32f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
 
 std::vector<float> random_weights(Random& r, int n, bool zeros) {
     std::vector<float> w;
@@ -85,7 +85,7 @@ TEST_CASE("alias table: indices by weight, leftover uniform") {
         auto const c = chi_square(left, std::vector<double>(50, n / 50.0));
         INFO("leftover ", size, ": ", c);
         CHECK(c.p >= alpha);
-        for (float const u : kExtremes) {
+        for (float const u : kEnds) {
             auto const s = t.sample(u);
             CHECK(w[s.index] > 0);
             CHECK((s.u >= 0 && s.u < 1));
@@ -165,7 +165,7 @@ TEST_CASE("Distribution1D: no sample where the density is 0, to the last bit") {
             std::vector<float> f(size, 0.0f);
             f[lit] = 2;
             Distribution1D const d(f);
-            for (float const u : kExtremes) {
+            for (float const u : kEnds) {
                 float pdf = 0;
                 std::size_t cell = 0;
                 float const x = d.sample(u, &pdf, &cell);
@@ -309,8 +309,8 @@ TEST_CASE("Distribution2D: samples, density, inverse, zero rows") {
     CHECK(d.pdf({1.5f, 0.5f}) == 0);
     CHECK_FALSE(d.invert({0.5f, 2.0f}));
     CHECK_FALSE(d.invert({-1.0f, 0.5f}));
-    for (float const x : kExtremes)
-        for (float const y : kExtremes) {
+    for (float const x : kEnds)
+        for (float const y : kEnds) {
             float pdf = 0;
             Vec2 const p = d.sample({x, y}, &pdf);
             CHECK(pdf > 0);

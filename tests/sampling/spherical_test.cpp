@@ -63,7 +63,7 @@ Vec2 random_square(Random& r) {
     float const x = r.unit();
     return {x, r.unit()};
 }
-float const kExtremes[] = {0.0f, 0x1p-32f, 0.5f, 1 - 0x1p-24f};
+float const kCorners[] = {0.0f, 0x1p-32f, 0.5f, 1 - 0x1p-24f};
 
 /// How much a function of two floats changes with their last bits.
 template <class F>
@@ -243,8 +243,8 @@ TEST_CASE("rectangle: inverse, Jacobian, ends, and scaled scenes") {
             REQUIRE(std::abs(back.x - u.x) <= 2e-6f + loss.x);
             REQUIRE(std::abs(back.y - u.y) <= 2e-6f + loss.y);
         }
-        for (float const x : kExtremes)
-            for (float const y : kExtremes) {
+        for (float const x : kCorners)
+            for (float const y : kCorners) {
                 Vec2 const st = q.sample({x, y});
                 REQUIRE((st.x >= 0 && st.x <= 1 && st.y >= 0 && st.y <= 1));  // and so no NaN
                 Vec2 const u = q.invert({x, y});
@@ -343,8 +343,8 @@ TEST_CASE("triangle: inverse, Jacobian, ends, and scaled scenes") {
             REQUIRE(std::abs(back.x - u.x) <= 2e-6f + loss.x);
             REQUIRE(std::abs(back.y - u.y) <= 2e-6f + loss.y);
         }
-        for (float const x : kExtremes)
-            for (float const y : kExtremes) {
+        for (float const x : kCorners)
+            for (float const y : kCorners) {
                 Vec2 const b = q.sample({x, y});
                 REQUIRE((b.x >= 0 && b.y >= 0 && b.x + b.y <= 1));
                 Vec2 const u = q.invert(b);

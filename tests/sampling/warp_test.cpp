@@ -13,7 +13,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 float const kExtremes[] = {0.0f, 0x1p-32f, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f};
 
 Vec2 random_square(Random& r) {

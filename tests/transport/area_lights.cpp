@@ -7,8 +7,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 /// A white floor, of which a square of this half side is seen from just above.
 Scene bench(float half, Vec3 centre = {0, 0, 0}) {
     Scene s;
@@ -35,11 +33,6 @@ void check_floor(World const& world, Settings const& s, Irradiance const& irradi
         expected.emplace_back(
             static_cast<float>(irradiance(floor_point(world, s, static_cast<std::size_t>(i))) / kPiD));
     check_pixels(world, s, passes, [&](std::size_t i) { return expected[i]; });
-}
-
-std::vector<Integrator> one_bounce() {
-    return {DirectIntegrator{1}, path(1), naive(path(1)), without_mis(path(1)), uniform_hemisphere(path(1)),
-            WhittedIntegrator{1}};
 }
 
 }  // namespace

@@ -7,8 +7,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 /// Refracted at a plane of normal n against d; eta is outside over inside.
 D3 refracted(D3 d, D3 n, double eta) {
     double const c = -dot(d, n);

@@ -10,7 +10,6 @@ using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
-constexpr double kPiD = 3.14159265358979323846;
 constexpr Vec3 kUp{0, 0, 1};
 
 World floor_world(float half, float reflectance = 0.5f) {

@@ -16,10 +16,6 @@ Scene plane(float reflectance) {
     look_at_point(s, {0.3f, 0.1f, 1}, {0, 0, 0});
     return s;
 }
-std::vector<Integrator> one_bounce() {
-    return {DirectIntegrator{1}, path(1), naive(path(1)), without_mis(path(1)), uniform_hemisphere(path(1)),
-            WhittedIntegrator{1}};
-}
 
 }  // namespace
 

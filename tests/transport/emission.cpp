@@ -8,8 +8,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 struct Sent {
     Mean power, landed;  // W, by batches; on the square |x|, |y| < half of the floor z = 0
     int lost = 0;

@@ -12,8 +12,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 /// A large pane in the xy plane, and a large emitter behind it (below) or on the camera's side (above).
 Scene pane(Shape const& shape, MaterialId (*make)(Scene&), bool behind, float degrees) {
     Scene s;

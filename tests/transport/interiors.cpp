@@ -44,7 +44,7 @@ struct Stack {
     }
 };
 
-std::vector<Integrator> deep() { return {path(20), naive(path(20)), WhittedIntegrator{12}}; }
+std::vector<Integrator> through_bodies() { return {path(20), naive(path(20)), WhittedIntegrator{12}}; }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ TEST_CASE("an absorbing slab: T = (1-F)^2 e^-a / (1 - F^2 e^-2a)") {
             double const a = 2 * static_cast<double>(absorption);
             double const f = 0.04;
             double const t = (1 - f) * (1 - f) * std::exp(-a) / (1 - f * f * std::exp(-2 * a));
-            for (Integrator const& i : deep()) check_mean(w, settings(i), 64, t);
+            for (Integrator const& i : through_bodies()) check_mean(w, settings(i), 64, t);
             Settings spectral = settings(path(60));
             spectral.color = ColorMode::Spectral;
             check_mean(w, spectral, 256, t);
@@ -117,7 +117,7 @@ TEST_CASE("a liquid that overlaps its glass is the same as one that meets it") {
     slab(s, -1.5f, 0, water);
     look_down(s);
     World const w = compile(std::move(s));
-    for (Integrator const& i : deep()) check_mean(w, settings(i), 64, expected.t);
+    for (Integrator const& i : through_bodies()) check_mean(w, settings(i), 64, expected.t);
     // Control: with the ranks exchanged the glass begins only at -1.5.
     Scene other;
     MaterialId const water2 = body(other, 1.33f, 2, 0.3f);
@@ -150,7 +150,7 @@ TEST_CASE("ice in water in glass, all overlapping: the highest priority is there
     slab(s, -1.2f, 3, ice);
     look_down(s);
     World const w = compile(std::move(s));
-    for (Integrator const& i : deep()) check_mean(w, settings(i), 64, expected.t);
+    for (Integrator const& i : through_bodies()) check_mean(w, settings(i), 64, expected.t);
 }
 
 TEST_CASE("the same body twice, overlapping, is one; equal indices make no boundary") {
@@ -165,7 +165,7 @@ TEST_CASE("the same body twice, overlapping, is one; equal indices make no bound
     expected.boundary(1, 1.33);
     expected.layer(0.1 * 3);
     expected.boundary(1.33, 1);
-    for (Integrator const& i : deep()) check_mean(w, settings(i), 64, expected.t);
+    for (Integrator const& i : through_bodies()) check_mean(w, settings(i), 64, expected.t);
 }
 
 TEST_CASE("a body with holes is noted") {
@@ -211,7 +211,7 @@ TEST_CASE("a camera inside knows what it is in") {
         // index n is n^2 times as large.
         double const n = in_water ? 1.33 : 1.5;
         double up_to_camera = below.t / (1 - below.up * above.down);
-        for (Integrator const& i : deep()) check_mean(w, settings(i), 64, n * n * up_to_camera);
+        for (Integrator const& i : through_bodies()) check_mean(w, settings(i), 64, n * n * up_to_camera);
     }
 }
 

@@ -8,8 +8,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 LightPathIntegrator light_paths(int max_depth, int paths) {
     LightPathIntegrator l;
     l.max_depth = max_depth;

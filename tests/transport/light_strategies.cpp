@@ -7,8 +7,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 DirectIntegrator direct(LightSampling how, DirectStrategy strategy = DirectStrategy::Light) {
     DirectIntegrator d{1};
     d.lights = how;

@@ -47,6 +47,11 @@ inline PathIntegrator uniform_hemisphere(PathIntegrator p) {
     return p;
 }
 
+inline std::vector<Integrator> one_bounce() {
+    return {DirectIntegrator{1}, path(1), naive(path(1)), without_mis(path(1)), uniform_hemisphere(path(1)),
+            WhittedIntegrator{1}};
+}
+
 constexpr int kBatches = 32;
 using Means = std::vector<std::array<Mean, 3>>;
 

@@ -8,7 +8,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 enum : std::size_t { kDirect, kCaustic, kIndirect, kSpecular };
 
 /// Diffuse walls, a mirror, glass, a nearly smooth metal, a lamp; all four classes are in it.

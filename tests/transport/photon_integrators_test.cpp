@@ -5,9 +5,7 @@
 using namespace nephroid;
 using namespace nephroid::test;
 
-namespace {
-constexpr double kPiD = 3.14159265358979323846;
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("closed forms: a furnace, a point light in a sphere, an integrating sphere") {
     // L_e / (1 - R) = 2; rho I / (pi r^2 (1 - rho)) = 1; and rho Phi / (A (1 - rho)) of indirect irradiance, wherever the light is.

@@ -15,7 +15,7 @@ namespace nephroid::test {
 namespace {
 
 /// A room of quads with a lamp that is a surface, a point light, a glass ball, a mirror and a glossy floor.
-Scene room(bool sky) {
+Scene room_of_everything(bool sky) {
     Scene s;
     MaterialId const white = diffuse(s, Vec3{0.8f, 0.7f, 0.6f});
     MaterialId const red = diffuse(s, Vec3{0.8f, 0.1f, 0.1f});
@@ -77,8 +77,8 @@ std::vector<Kind> kinds() {
 }  // namespace
 
 TEST_CASE("a replayed path is what the film got, to the bit") {
-    for (auto const& [scene_name, make] : {std::pair{"room", +[] { return room(false); }},
-                                           {"room under a sky", +[] { return room(true); }},
+    for (auto const& [scene_name, make] : {std::pair{"room", +[] { return room_of_everything(false); }},
+                                           {"room under a sky", +[] { return room_of_everything(true); }},
                                            {"bodies", +[] { return bodies(); }}})
         for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral})
             for (Kind const& kind : kinds()) {
@@ -149,7 +149,7 @@ TEST_CASE("a replayed path is what the film got, to the bit") {
 }
 
 TEST_CASE("the vertices of a replayed path hang together") {
-    World const world = compile(room(false));
+    World const world = compile(room_of_everything(false));
     Settings settings;
     settings.color = ColorMode::Rgb;
     settings.film.resolution = {40, 30};
@@ -219,7 +219,7 @@ TEST_CASE("the vertices of a replayed path hang together") {
 }
 
 TEST_CASE("Whitted's tree is replayed as a tree") {
-    World const world = compile(room(false));
+    World const world = compile(room_of_everything(false));
     Settings settings;
     settings.color = ColorMode::Rgb;
     settings.film.resolution = {40, 30};
@@ -273,7 +273,7 @@ TEST_CASE("a sample that is not a number says where that came from") {
 }
 
 TEST_CASE("what cannot be replayed is refused") {
-    World const world = compile(room(false));
+    World const world = compile(room_of_everything(false));
     for (Integrator const& i : std::initializer_list<Integrator>{
              PhotonMapIntegrator{.shooting = {.global_paths = 10}, .estimates = {.radius = 0.1f}},
              SppmIntegrator{.shooting = {.global_paths = 10}, .estimates = {.radius = 0.1f}},

@@ -13,7 +13,7 @@ std::vector<PathIntegrator> all_ways(int depth) {
 }
 
 /// A room with a light in its ceiling, open to the sky on one side, with mirror and glass.
-Scene room(bool smooth) {
+Scene lit_room(bool smooth) {
     Scene s;
     MaterialId const gray = diffuse(s, 0.6f);
     MaterialId const red = diffuse(s, Vec3{0.7f, 0.2f, 0.1f});
@@ -38,7 +38,7 @@ Scene room(bool smooth) {
 TEST_CASE("nothing counts twice: light sampling, chance and both agree") {
     for (bool smooth : {false, true}) {
         CAPTURE(smooth);
-        World const world = compile(room(smooth));
+        World const world = compile(lit_room(smooth));
         for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral}) {
             std::vector<Variant> variants;
             for (auto const& p : all_ways(4)) {
@@ -53,7 +53,7 @@ TEST_CASE("nothing counts twice: light sampling, chance and both agree") {
 }
 
 TEST_CASE("direct light: the direct integrator, Whitted's and a path of one bounce are one") {
-    World const world = compile(room(false));
+    World const world = compile(lit_room(false));
     std::vector<Variant> variants;
     for (auto const& i : {Integrator{DirectIntegrator{1}}, Integrator{WhittedIntegrator{1}},
                           Integrator{path(1)}, Integrator{naive(path(1))}})
@@ -225,7 +225,7 @@ TEST_CASE("shading normals: light from above on a surface that pretends to lean 
 }
 
 TEST_CASE("gray scenes look the same in both colour modes") {
-    Scene s = room(true);
+    Scene s = lit_room(true);
     for (Texture& t : s.textures)
         if (auto* c = std::get_if<ConstantSpectrumTexture>(&t.kind))
             if (std::holds_alternative<RgbAlbedoSpd>(c->value)) c->value = RgbAlbedoSpd{{0.4f, 0.4f, 0.4f}};

@@ -7,9 +7,7 @@
 using namespace nephroid;
 using namespace nephroid::test;
 
-namespace {
-constexpr double kPiD = 3.14159265358979323846;
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("light from above on a normal tilted by 30 degrees: rho E cos 30 / pi") {
     World const w = compile(tilted_floor_lit_from_above());

@@ -12,8 +12,6 @@ using namespace nephroid::test;
 
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
-
 bool anything(Photon const&) { return true; }
 
 /// A closed box with three lights of constant radiance in it.

@@ -59,7 +59,7 @@ TEST_CASE("rays that are not numbers are refused and counted, and abort nothing"
 
 TEST_CASE("any bits at all may be asked") {
     World const world = compile(two_things());
-    Random random(5);
+    Rays random(5);
     RayStats stats;
     SurfaceHit hit;
     std::uint64_t const n = tries(100'000);
@@ -105,7 +105,7 @@ TEST_CASE("from inside a room every point of every wall is in sight") {
         }
         rooms.push_back(six);
     }
-    Random random(9);
+    Rays random(9);
     for (std::size_t r = 0; r < rooms.size(); ++r) {
         CAPTURE(r);
         World const world = compile(rooms[r]);
@@ -185,7 +185,7 @@ TEST_CASE("no light shades itself, wherever it is seen from") {
                 World const world = compile(std::move(s));
                 auto const unit = static_cast<float>(size);
                 Vec3 const middle{static_cast<float>(far), static_cast<float>(far), 0};
-                Random random(13);
+                Rays random(13);
                 RayStats stats;
                 std::uint64_t lit = 0;
                 std::uint64_t blocked = 0;

@@ -3,11 +3,11 @@
 
 #include "model/shape.h"
 #include "scene/scene.h"
+#include "statistics.h"
 #include "world/world.h"
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -16,25 +16,16 @@ namespace nephroid::test {
 /// How often something is tried: ten times as often where NEPHROID_FULL is set.
 /// `n` by default, `longer` times as many in a full run, a tenth under the address sanitizer.
 inline std::uint64_t tries(std::uint64_t n, std::uint64_t longer = 10) {
-    static bool const full = std::getenv("NEPHROID_FULL") != nullptr;
 #ifdef __SANITIZE_ADDRESS__
     n = n / 10 + 1;
 #endif
-    return full ? longer * n : n;
+    return full() ? longer * n : n;
 }
 
-/// SplitMix64 (Steele et al. 2014).
-class Random {
+/// Random rays.
+class Rays : public Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return z ^ (z >> 31);
-    }
-    std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(bits() % n); }
-    float unit() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
+    using Random::Random;
     float in(float lo, float hi) { return lo + (hi - lo) * unit(); }
     Vec3 direction() {
         float const z = in(-1, 1);
@@ -49,9 +40,6 @@ class Random {
         float const cosine = bits() % 2 ? in(1e-4f, 1.0f) : std::exp(in(std::log(1e-4f), 0));
         return normalize(normalize(tangent) * safe_sqrt(1 - cosine * cosine) + n * cosine);
     }
-
-  private:
-    std::uint64_t state_;
 };
 
 /// An icosahedron, each face divided in four `levels` times, vertices shared and on the sphere.

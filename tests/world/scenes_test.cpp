@@ -166,7 +166,7 @@ TEST_CASE("three levels of instances are the same as the scene written out by ha
     CHECK(n.counts().instances == 8);
     CHECK(n.counts().objects == 3);
     CHECK(h.counts().instances == 0);
-    Random random(3);
+    Rays random(3);
     RayStats stats;
     int hits = 0;
     int differing = 0;

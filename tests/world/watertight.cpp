@@ -21,7 +21,7 @@ struct Escapes {
 /// Of rays from `inside(random)`: half in random directions, a tenth at vertices, the rest at edges.
 template <class Inside>
 Escapes escapes(World const& world, TriangleMesh const& target, std::uint64_t n, Inside inside) {
-    Random random(7);
+    Rays random(7);
     RayStats stats;
     SurfaceHit hit;
     Escapes out;
@@ -60,10 +60,10 @@ void check_tight(World const& world, TriangleMesh const& target, std::uint64_t n
 TEST_CASE("closed meshes are watertight, at the origin and far from it") {
     float const radius = 100;
     auto const in_ball = [](Vec3 centre) {
-        return [centre](Random& r) { return centre + 80.0f * r.unit() * r.direction(); };
+        return [centre](Rays& r) { return centre + 80.0f * r.unit() * r.direction(); };
     };
     auto const in_torus = [](Vec3 centre) {
-        return [centre](Random& r) {
+        return [centre](Rays& r) {
             float const phi = r.in(0, kTwoPi);
             return centre + Vec3{90 * std::cos(phi), 90 * std::sin(phi), 0} +
                    20.0f * r.unit() * r.direction();
@@ -88,7 +88,7 @@ TEST_CASE("closed meshes are watertight as instances under a turn, a scale and a
     transform_mesh(in_world, place, false);
     World const world = compile(alone_instanced(ball, Mat4{}, place));
     check_tight(world, in_world, tries(2'000'000),
-                [](Random& r) { return kFarCorner + 50.0f * r.unit() * r.direction(); });
+                [](Rays& r) { return kFarCorner + 50.0f * r.unit() * r.direction(); });
 }
 
 namespace {
@@ -98,7 +98,7 @@ struct Leaving {
     std::uint64_t left = 0, hit_again = 0, not_held = 0;
 };
 Leaving leave(World const& world, Vec3 centre, float reach, std::uint64_t n, bool both_sides = false) {
-    Random random(11);
+    Rays random(11);
     RayStats stats;
     SurfaceHit hit;
     SurfaceHit again;

@@ -19,6 +19,7 @@ using Vec2i = glm::ivec2;
 using Vec3i = glm::ivec3;
 
 inline constexpr float kPi = 3.14159265358979323846f;
+inline constexpr double kPiDouble = 3.14159265358979323846;
 inline constexpr float kInvPi = 0.31830988618379067154f;
 inline constexpr float kTwoPi = 6.28318530717958647692f;
 inline constexpr float kInvTwoPi = 0.15915494309189533577f;

@@ -2,11 +2,11 @@
 // nothing, while small angles keep their relative precision. The coefficients interpolate the functions at Chebyshev's nodes.
 #pragma once
 
+#include "math/vec.h"
+
 #include <cmath>
 
 namespace nephroid {
-
-inline constexpr double kPiDouble = 3.14159265358979323846;
 
 struct SinCos {
     double sin, cos;
@@ -60,6 +60,12 @@ inline double upper_angle(double y, double x) {
 inline double turns_of(double y, double x) {
     double const half = upper_angle(std::abs(y), x) * (0.5 / kPiDouble);
     return y < 0 ? 1 - half : half;
+}
+
+/// As a float of [0, 1); what is not a number becomes 0.
+inline float below_one(double x) {
+    float const f = static_cast<float>(x);
+    return f > 0.0f ? (f < kOneMinusEpsilon ? f : kOneMinusEpsilon) : 0.0f;
 }
 
 }  // namespace nephroid
