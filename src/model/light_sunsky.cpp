@@ -44,7 +44,7 @@ Spectrum radiance(SunSkyLight const& l, LightData const& d, Vec3 local, Waveleng
     return sum;
 }
 
-float density(LightData const& d, Vec3 local) {
+float daylight_density(LightData const& d, Vec3 local) {
     SunSky const& s = *d.sun_sky;
     float sum = 0;
     if (s.sun_probability < 1.0f)
@@ -128,7 +128,7 @@ std::optional<LightSample> sample_light(SunSkyLight const& l, LightData const& d
     // What is said of the direction is said of its rounded self, so that whoever meets it again finds the same.
     Vec3 const wi = normalize(d.to_world.vector(direction));
     Vec3 const local = local_direction(d, wi);
-    float const pdf = density(d, local);
+    float const pdf = daylight_density(d, local);
     if (!(pdf > 0.0f)) return result;
     LightSample& sample = result.emplace();
     sample.at_infinity = true;
@@ -144,7 +144,7 @@ Spectrum environment_radiance(SunSkyLight const& l, LightData const& d, Assets c
 }
 
 float environment_pdf(SunSkyLight const&, LightData const& d, Vec3, Vec3 w) {
-    return density(d, local_direction(d, w));
+    return daylight_density(d, local_direction(d, w));
 }
 
 float power(SunSkyLight const&, LightData const& d, Assets const&, BoundingSphere const& scene) {

@@ -10,7 +10,7 @@ using namespace nephroid::test;
 
 namespace {
 /// A room of side 2 k with a light under its ceiling, a glass ball if wanted, and the camera in it.
-World room(float k, bool ball, float reflectance = 0.6f) {
+World radius_room(float k, bool ball, float reflectance = 0.6f) {
     Scene s;
     MaterialId const grey = diffuse(s, reflectance);
     add(s, box_mesh(Vec3(-k), Vec3(k), true), grey);
@@ -66,7 +66,7 @@ Medians in_pass_0(World const& world, Settings s) {
 
 TEST_CASE("automatic radii hold some dozens of photons where the camera looks, whatever is shot") {
     for (float const reflectance : {0.2f, 0.7f}) {
-        World const world = room(1, false, reflectance);
+        World const world = radius_room(1, false, reflectance);
         float before = kInfinity;
         for (int const paths : {1000, 10000, 100000}) {
             Settings const s = settings(sppm(paths), 200, 200);
@@ -82,7 +82,7 @@ TEST_CASE("automatic radii hold some dozens of photons where the camera looks, w
 }
 
 TEST_CASE("no finer than pixels: a coarse picture does not ask for less than it shows") {
-    World const world = room(1, false);
+    World const world = radius_room(1, false);
     auto const at = [&](int resolution) {
         RenderJob const job(world, settings(sppm(100000), resolution, resolution));
         return std::pair(job.photon_plan()->global_radius, job.camera().pixel_spread());
@@ -97,7 +97,7 @@ TEST_CASE("no finer than pixels: a coarse picture does not ask for less than it 
 }
 
 TEST_CASE("of the nearest k the radius bounds the search, and few reach it") {
-    World const world = room(1, false);
+    World const world = radius_room(1, false);
     SppmIntegrator p = sppm(20000);
     p.estimates.nused = 50;  // photonmap's default
     Settings const s = settings(p, 100, 100);
@@ -110,7 +110,7 @@ TEST_CASE("of the nearest k the radius bounds the search, and few reach it") {
 }
 
 TEST_CASE("the caustic radius is that of the caustic's photons") {
-    World const world = room(1, true);
+    World const world = radius_room(1, true);
     Settings const s = settings(sppm(40000), 400, 400);
     Radii const r = radii(world, s);
     // 40,000 paths of which few meet the ball, which gathers them in a spot no larger than itself.
@@ -122,16 +122,16 @@ TEST_CASE("the caustic radius is that of the caustic's photons") {
 
 TEST_CASE("radii grow with the scene: exactly by powers of two, and from 1e-3 to 1e5") {
     Settings const s = settings(sppm(4000), 200, 200);
-    Radii const one = radii(room(1, true), s);
+    Radii const one = radii(radius_room(1, true), s);
     CHECK(std::isfinite(one.global));
     for (int const power : {-13, -3, 6, 17}) {
         float const k = std::ldexp(1.0f, power);
-        Radii const r = radii(room(k, true), s);
+        Radii const r = radii(radius_room(k, true), s);
         CHECK(r.global == one.global * k);
         CHECK(r.caustic == one.caustic * k);
     }
     for (float const k : {1e-3f, 1e5f}) {
-        Radii const r = radii(room(k, true), s);
+        Radii const r = radii(radius_room(k, true), s);
         // Other roundings, other paths: as far apart as other seeds would be.
         CHECK(r.global == doctest::Approx(one.global * k).epsilon(0.2));
         CHECK(r.caustic == doctest::Approx(one.caustic * k).epsilon(0.4));
@@ -139,7 +139,7 @@ TEST_CASE("radii grow with the scene: exactly by powers of two, and from 1e-3 to
 }
 
 TEST_CASE("radii are a function of the job, given ones are kept, and finding them is quick") {
-    World const world = room(1, true);
+    World const world = radius_room(1, true);
     Settings s = settings(sppm(250000), 500, 500);
     auto const begun = std::chrono::steady_clock::now();
     Radii const a = radii(world, s);
@@ -172,7 +172,7 @@ TEST_CASE("some radius even where there is nothing: no light, nothing in view, n
     Scene empty;
     empty.add(sky());
     CHECK(some(compile(std::move(empty))));
-    CHECK(some(room(1, true), 0));
+    CHECK(some(radius_room(1, true), 0));
     Scene mirrors;
     add(mirrors, box_mesh(Vec3(-1), Vec3(1), true), mirror(mirrors, 1));
     mirrors.add(point_light({0, 0, 0.5f}, 1));
