@@ -3,14 +3,14 @@
 #include "commands.h"
 #include "console.h"
 #include "math/error.h"
+#include "memory.h"
 #include "read/read.h"
 #include "scene/match.h"
 #include "targets.h"
+#include "world/world.h"
 #include "write/write.h"
 
 #include <fmt/format.h>
-
-#include <filesystem>
 
 namespace nephroid::cli {
 
@@ -21,7 +21,6 @@ void check_files(ConvertOptions const& o, Scene const& scene, SceneText const& t
     std::vector<NamedFile> files{{"the output", o.output, FileRole::Output}};
     for (SceneText::File const& part : text.parts)
         files.push_back({"the output's", part.path.string(), FileRole::Output});
-    std::size_t const written = files.size();
     files.push_back({"the scene", o.scene, FileRole::Input});
     for (std::string const& f : scene.files)
         if (f != o.scene) files.push_back({"the scene's", f, FileRole::Input});
@@ -29,12 +28,7 @@ void check_files(ConvertOptions const& o, Scene const& scene, SceneText const& t
     for (Material const& m : scene.materials)
         if (auto const* k = std::get_if<MeasuredMaterial>(&m.kind))
             files.push_back({"the measured file", k->file.path, FileRole::Input});
-    // Each output against the inputs: many parts make many pairs, and no two of them have one name.
-    for (std::size_t i = 0; i < written; ++i) {
-        std::vector<NamedFile> one(files.begin() + static_cast<std::ptrdiff_t>(written), files.end());
-        one.push_back(files[i]);
-        check_conflicts(one);
-    }
+    check_conflicts(files);
 }
 
 }  // namespace
@@ -47,12 +41,17 @@ int run(ConvertOptions const& o) {
     scene.settings = settings_of(o, scene);
     SceneText const text = pbrt_text(scene, o.output, {.portable = o.portable});
     check_files(o, scene, text);
+    std::size_t const approximated = scene.notes.size();
+    // What cannot be rendered is not handed on, and only the compiler opens the pictures.
+    MemoryNeed const need = memory_need(scene, {}, false);
+    check_memory({need.program, need.world, 0, 0}, std::nullopt);
+    World const world = compile(std::move(scene));
     write_files(text);
-    for (Note const& n : text.notes) say("{}: {}\n", scene.locate(n.where), n.text);
-    print("{}\n", std::filesystem::absolute(o.output).lexically_normal().string());
-    if (!o.quiet && !scene.notes.empty())
-        say("{} of the scene's parts were approximated when it was read: nephroid info {}\n",
-            scene.notes.size(), o.scene);
+    for (Note const& n : text.notes) say("{}: {}\n", world.scene().locate(n.where), n.text);
+    print_written(o.output);
+    if (!o.quiet && approximated > 0)
+        say("{} of the scene's parts were approximated when it was read: nephroid info {}\n", approximated,
+            o.scene);
     return kGood;
 }
 

@@ -4,7 +4,6 @@
 #include "math/error.h"
 #include "targets.h"
 
-#include <filesystem>
 #include <new>
 
 namespace nephroid::cli {
@@ -26,7 +25,7 @@ std::vector<std::string> write_outputs(std::vector<std::string> const& outputs, 
                         "written as 32-bit floats",
                         out, channel));
             }
-            print("{}\n", std::filesystem::absolute(out).lexically_normal().string());
+            print_written(out);
         } catch (Error const& e) {
             errors.emplace_back(e.what());
         } catch (std::bad_alloc const&) {

@@ -13,8 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 namespace nephroid::cli {
 
 namespace {
@@ -60,10 +58,6 @@ Settings settings_of_photons(PhotonsOptions const& o, Scene const& scene) {
 
 char const* map_name(ShotKind kind) { return kind == ShotKind::Caustic ? "caustic" : "global"; }
 
-void say_written(std::string const& file) {
-    print("{}\n", std::filesystem::absolute(file).lexically_normal().string());
-}
-
 /// Every path of the pass is traced again, one by one: few files are worth more.
 void write_photons(RenderJob const& job, PhotonsOptions const& o, std::string const& file) {
     PhotonCloud cloud;
@@ -82,7 +76,7 @@ void write_photons(RenderJob const& job, PhotonsOptions const& o, std::string co
         say("nephroid: warning: there are no photons: {}\n",
             job.world().counts().lights == 0 ? "the scene has no lights" : "nothing that takes them was met");
     cloud.write(file);
-    say_written(file);
+    print_written(file);
 }
 
 void write_paths(RenderJob const& job, PhotonsOptions const& o, std::string const& file) {
@@ -94,7 +88,7 @@ void write_paths(RenderJob const& job, PhotonsOptions const& o, std::string cons
         if (!o.quiet) say("{} map: {} paths of {}\n", map_name(kind), shown, paths);
     }
     lines.write(file);
-    say_written(file);
+    print_written(file);
 }
 
 }  // namespace

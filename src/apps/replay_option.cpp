@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <limits>
 #include <span>
 
@@ -72,7 +71,7 @@ PathRecord run_replay(ReplayRequest const& request, RenderJob const& job) {
         std::string const text =
             extension_of(file) == ".svg" ? path_svg(job, record) : json_text(to_json(job, record), 2) + "\n";
         write_file_atomically(file, std::as_bytes(std::span(text)));
-        print("{}\n", std::filesystem::absolute(file).lexically_normal().string());
+        print_written(file);
     }
     return record;
 }

@@ -1,8 +1,10 @@
 #include "targets.h"
 
+#include "console.h"
 #include "image/file.h"
 #include "image/image.h"
 #include "math/error.h"
+#include "scene/file_path.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,6 +13,7 @@
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
+#include <unordered_map>
 
 namespace nephroid::cli {
 
@@ -104,20 +107,26 @@ void check_output_size(std::vector<std::string> const& outputs, std::array<int, 
 }
 
 void check_conflicts(std::vector<NamedFile> const& files) {
-    std::vector<fs::path> paths;
-    paths.reserve(files.size());
-    for (NamedFile const& f : files) paths.push_back(canonical(f.path));
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k) {
-            if (paths[i] != paths[k] || !clash(files[i], files[k])) continue;
-            bool const both = is_output(files[i].role) && is_output(files[k].role);
-            NamedFile const& written = is_output(files[i].role) ? files[i] : files[k];
-            NamedFile const& other = is_output(files[i].role) ? files[k] : files[i];
+    // The first of each role for each file, which stands for the others: scenes name thousands of files.
+    std::unordered_map<std::string, std::vector<NamedFile const*>> known;
+    for (NamedFile const& file : files) {
+        auto& same = known[canonical(file.path).string()];
+        for (NamedFile const* const before : same) {
+            if (!clash(file, *before)) continue;
+            bool const both = is_output(file.role) && is_output(before->role);
+            NamedFile const& written = is_output(file.role) ? file : *before;
+            NamedFile const& other = is_output(file.role) ? *before : file;
             throw Error(ErrorKind::Input, fmt::format("{} {}: is {} {} as well{}; choose another name",
                                                       written.option, written.path, other.option, other.path,
                                                       both ? "" : ", which would be overwritten"));
         }
+        if (std::none_of(same.begin(), same.end(),
+                         [&](NamedFile const* before) { return before->role == file.role; }))
+            same.push_back(&file);
+    }
 }
+
+void print_written(std::string const& file) { print("{}\n", without_detours(fs::absolute(file)).string()); }
 
 void add_outputs(std::vector<NamedFile>& files, std::vector<std::string> const& outputs) {
     for (std::string const& out : outputs)

@@ -32,6 +32,9 @@ void check_output_size(std::vector<std::string> const& outputs, std::array<int, 
 /// contains.
 void check_conflicts(std::vector<NamedFile> const& files);
 
+/// Where a written file is, on stdout.
+void print_written(std::string const& file);
+
 /// The outputs by their roles.
 void add_outputs(std::vector<NamedFile>& files, std::vector<std::string> const& outputs);
 

@@ -72,7 +72,7 @@ std::optional<Mat4> rotate(double angle, double x, double y, double z) {
     double const len = std::sqrt(x * x + y * y + z * z);
     if (!(len > 0) || !std::isfinite(len)) return std::nullopt;
     x /= len, y /= len, z /= len;
-    double const t = angle * 3.14159265358979323846 / 180.0;
+    double const t = angle * kPiDouble / 180.0;
     double const s = std::sin(t);
     double const c = std::cos(t);
     Mat4 r;
@@ -110,7 +110,7 @@ Mat4 perspective(double fov, double near, double far) {
     Mat4 p;
     p.m[2] = {0, 0, far / (far - near), -far * near / (far - near)};
     p.m[3] = {0, 0, 1, 0};
-    double const inv_tan = 1.0 / std::tan(fov * 3.14159265358979323846 / 360.0);
+    double const inv_tan = 1.0 / std::tan(fov * kPiDouble / 360.0);
     return scale(inv_tan, inv_tan, 1) * p;
 }
 

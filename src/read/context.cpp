@@ -1,6 +1,7 @@
 #include "context.h"
 
 #include "bytes.h"
+#include "scene/file_path.h"
 #include "shown.h"
 
 #include <system_error>
@@ -20,11 +21,11 @@ std::uint32_t Context::add_file(std::string const& shown, std::filesystem::path 
 std::filesystem::path Context::resolve(SourceLocation where, std::string const& name) const {
     std::filesystem::path path = name;
     if (path.is_absolute() || where.file >= folders_.size()) return path;
-    auto below_first = (folders_[0] / path).lexically_normal();
+    auto below_first = without_detours(folders_[0] / path);
     if (where.file == 0) return below_first;
     std::error_code ignored;
     if (std::filesystem::exists(below_first, ignored)) return below_first;
-    auto const beside = (folders_[where.file] / path).lexically_normal();
+    auto const beside = without_detours(folders_[where.file] / path);
     return std::filesystem::exists(beside, ignored) ? beside : below_first;
 }
 

@@ -1,6 +1,8 @@
 // Blocks, instances and other files: the directives that give a scene its structure.
 #include "pbrt_reader.h"
 
+#include "scene/affine_rows.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,13 +16,6 @@ constexpr std::size_t kMaxIncludes = 32;
 constexpr std::size_t kMaxIncludedFiles = 10'000;
 constexpr std::size_t kMaxIncludedBytes = std::size_t{4} << 30;
 constexpr std::size_t kMaxAttributes = 1000;  // look-ups are linear
-
-AffineRows rows_of(Mat4 const& m) {
-    AffineRows r;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) r[i][j] = static_cast<float>(m.m[i][j]);
-    return r;
-}
 
 }  // namespace
 

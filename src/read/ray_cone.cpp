@@ -50,7 +50,7 @@ class ConeMesh {
     TriangleMesh take() { return std::move(mesh_); }
 
   private:
-    static double angle(double step) { return step * (2 * 3.14159265358979323846 / kSegments); }
+    static double angle(double step) { return step * (2 * kPiDouble / kSegments); }
     /// The last one is the first, to the bit.
     static Vec3 point(float r, float z, int step) {
         double const phi = angle(step % kSegments);

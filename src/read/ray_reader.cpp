@@ -183,7 +183,7 @@ Mat4 RayReader::transform_of(std::string_view name) {
     if (name == "scale") return scale(x, y, z);
     if (name == "translate") return translate(x, y, z);
     double const turn = next();
-    auto const m = rotate(turn * (180 / 3.14159265358979323846), x, y, z);
+    auto const m = rotate(turn * (180 / kPiDouble), x, y, z);
     if (!m) context_.fail(where, "the axis of a rotation must not be (0, 0, 0)");
     return *m;
 }

@@ -1,6 +1,6 @@
 // Objects that cannot be seen because they have no extent: scaled by 0, of radius 0, without a face.
+#include "scene/affine_rows.h"
 #include "scene/match.h"
-#include "scene/scene.h"
 
 #include <cmath>
 #include <limits>
@@ -18,13 +18,6 @@ bool is_flat(Mat4 const& m) {
         for (double const x : row)
             if (!(std::abs(x) <= kFloatMax)) return false;
     return is_affine(m) && !make_transform(m) && std::isfinite(determinant3(m));
-}
-
-bool is_flat(AffineRows const& rows) {
-    Mat4 m;
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(rows[r][k]);
-    return is_flat(m);
 }
 
 bool has_no_area(Shape const& shape) {
@@ -54,7 +47,7 @@ void drop_degenerate(Scene& scene) {
             return true;
         });
         std::erase_if(group.instances, [&](Instance const& instance) {
-            if (!is_flat(instance.to_parent)) return false;
+            if (!is_flat(matrix_of(instance.to_parent))) return false;
             scene.note(instance.where, "the instance's transform leaves nothing of it: instance skipped");
             return true;
         });

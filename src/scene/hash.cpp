@@ -6,6 +6,7 @@
 // objects, instances and lights, which random choices go by, is.
 #include "scene/digest.h"
 #include "scene/fields.h"
+#include "scene/file_path.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -54,8 +55,7 @@ void put_contents(Digest& d, std::string const& path) {
     if (std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0)
         file.open(path, std::ios::binary);
     d.word(file.is_open());
-    if (!file.is_open())
-        return put_text(d, std::filesystem::absolute(path, error).lexically_normal().string());
+    if (!file.is_open()) return put_text(d, without_detours(std::filesystem::absolute(path, error)).string());
     std::vector<char> buffer(1 << 20);
     std::uint64_t size = 0;
     while (file) {

@@ -1,4 +1,5 @@
 #include "check.h"
+#include "scene/affine_rows.h"
 
 #include <limits>
 
@@ -30,13 +31,6 @@ void check_matrix(Check const& c, Mat4 const& m, char const* what) {
 
 namespace {
 
-Mat4 as_matrix(AffineRows const& rows) {
-    Mat4 m;
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(rows[r][k]);
-    return m;
-}
-
 void check_object(Check const& c, Object const& object) {
     check_ids(c, object.material, "the object");
     check_ids(c, object.alpha, "the object's alpha");
@@ -52,7 +46,7 @@ void check_group(Check const& c, Group const& group) {
         Check const here = c.at(instance.where);
         here.require(instance.group.valid(), "the instance names no group: name one");
         check_ids(here, instance.group, "the instance");
-        check_matrix(here, as_matrix(instance.to_parent), "the instance's transform");
+        check_matrix(here, matrix_of(instance.to_parent), "the instance's transform");
     }
 }
 

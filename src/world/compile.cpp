@@ -2,6 +2,7 @@
 #include "light_gather.h"
 #include "ray_caster.h"
 #include "records.h"
+#include "scene/affine_rows.h"
 #include "scene/match.h"
 #include "world/world.h"
 #include "world_parts.h"
@@ -14,19 +15,7 @@ namespace nephroid {
 
 namespace {
 
-/// A row-major affine matrix in double, for chains of instances.
-Mat4 to_matrix(AffineRows const& rows) {
-    Mat4 m;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) m.m[i][j] = static_cast<double>(rows[i][j]);
-    return m;
-}
-AffineMap to_map(Mat4 const& m) {
-    AffineMap a;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = static_cast<float>(m.m[i][j]);
-    return a;
-}
+AffineMap to_map(Mat4 const& m) { return {rows_of(m)}; }
 
 /// AffineMap::round_trip of a chain of instances; nothing when it is singular.
 std::optional<float> round_trip(Mat4 const& m) {
@@ -207,7 +196,7 @@ struct Builder {
     /// has excluded cycles and more than 2^31 instances.
     void flatten(GroupId group, Mat4 const& to_world) {
         for (Instance const& i : scene[group].instances) {
-            Mat4 const m = to_world * to_matrix(i.to_parent);
+            Mat4 const m = to_world * matrix_of(i.to_parent);
             if (caster_group[i.group.value] != kNotBuilt) {
                 AffineMap map = to_map(m);
                 auto const there_and_back = round_trip(m);

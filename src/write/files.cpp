@@ -2,6 +2,7 @@
 #include "writer.h"
 
 #include "scene/digest.h"
+#include "scene/file_path.h"
 
 #include <algorithm>
 #include <system_error>
@@ -14,8 +15,8 @@ namespace fs = std::filesystem;
 /// absolute.
 std::string Writer::file_name(std::string const& path) const {
     std::error_code error;
-    fs::path const file = fs::absolute(path, error).lexically_normal();
-    fs::path const folder = fs::absolute(path_, error).lexically_normal().parent_path();
+    fs::path const file = without_detours(fs::absolute(path, error));
+    fs::path const folder = without_detours(fs::absolute(path_, error)).parent_path();
     auto const common = std::distance(
         folder.begin(), std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first);
     fs::path const relative = file.lexically_relative(folder);

@@ -1,5 +1,6 @@
 #include "portable.h"
 
+#include "scene/affine_rows.h"
 #include "scene/match.h"
 
 #include <functional>
@@ -9,16 +10,14 @@ namespace nephroid {
 
 namespace {
 
-Mat4 matrix(AffineRows const& rows) {
-    Mat4 m;
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(rows[r][k]);
-    return m;
+/// Where the settings are, as far as they are anywhere: in formats without an integrator, the scene's file.
+SourceLocation place_of(Settings const& s, Scene const& scene) {
+    return s.integrator_where.file < scene.files.size() ? s.integrator_where : SourceLocation{0, 0};
 }
 
 /// What pbrt-v4 has of each integrator.
 Integrator nearest(Scene& scene, Settings const& s) {
-    auto const note = [&](char const* text) { scene.note(s.integrator_where, text); };
+    auto const note = [&](char const* text) { scene.note(place_of(s, scene), text); };
     auto const light_choice = [](auto const& i) { return LightSampling{i.lights.choice}; };
     return match(
         s.integrator,
@@ -64,12 +63,12 @@ Integrator nearest(Scene& scene, Settings const& s) {
 
 void make_portable(Settings& s, Scene& scene) {
     s.integrator = nearest(scene, s);
-    if (s.color == ColorMode::Rgb) scene.note(s.integrator_where, "colours are spectra in pbrt-v4, not rgb");
+    if (s.color == ColorMode::Rgb) scene.note(place_of(s, scene), "colours are spectra in pbrt-v4, not rgb");
     s.color = ColorMode::Spectral;
     s.color_given = false;
     auto const most = static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
     if (s.seed > most) {
-        scene.note({}, "the seed is cut to the 32 bits that pbrt-v4 has for it");
+        scene.note(SourceLocation{0, 0}, "the seed is cut to the 32 bits that pbrt-v4 has for it");
         s.seed &= most;
     }
 }
@@ -89,7 +88,7 @@ void take_groups_apart(Scene& scene) {
             world.objects.push_back(std::move(o));
         }
         for (Instance const& i : g.instances) {
-            Mat4 const m = to_world * matrix(i.to_parent);
+            Mat4 const m = to_world * matrix_of(i.to_parent);
             if (!whole[i.group.value]) {
                 if (std::exchange(first, false))
                     scene.note(
@@ -99,8 +98,7 @@ void take_groups_apart(Scene& scene) {
                 continue;
             }
             Instance copy = i;
-            for (std::size_t r = 0; r < 3; ++r)
-                for (std::size_t k = 0; k < 4; ++k) copy.to_parent[r][k] = static_cast<float>(m.m[r][k]);
+            copy.to_parent = rows_of(m);
             world.instances.push_back(copy);
         }
     };

@@ -48,7 +48,8 @@ class Portable {
         plastic.coat.roughness = rough;
         auto const metallic = value(m.metallic, 1), through = value(m.transmission.factor, 0);
         if (through.value_or(0) >= 0.5f && metallic.value_or(0) < 0.5f) {
-            note("\"metallicroughness\" is replaced by glass");
+            note(is_white(m.base_color) ? "\"metallicroughness\" is replaced by glass"
+                                        : "\"metallicroughness\" is replaced by glass without its colour");
             if (m.transmission.thin) return ThinDielectricMaterial{ConstantSpd{ior}};
             return kept(DielectricMaterial{ConstantSpd{ior}, rough, m.transmission.interior});
         }
@@ -106,6 +107,14 @@ class Portable {
             c->value, [](ConstantSpd const& s) { return std::optional(s.value); },
             [](RgbAlbedoSpd const& s) { return std::optional((s.rgb.x + s.rgb.y + s.rgb.z) / 3); },
             [](auto const&) { return std::optional<float>(); });
+    }
+    [[nodiscard]] bool is_white(TextureId id) const {
+        if (!id.valid()) return true;
+        auto const* c = std::get_if<ConstantSpectrumTexture>(&scene_[id].kind);
+        return c &&
+               match(
+                   c->value, [](ConstantSpd const& s) { return s.value == 1; },
+                   [](RgbAlbedoSpd const& s) { return s.rgb == Vec3{1}; }, [](auto const&) { return false; });
     }
     /// glTF's alpha is the square of its roughness.
     TextureId squared(TextureId id) {

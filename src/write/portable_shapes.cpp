@@ -102,8 +102,7 @@ void make_light_portable(Scene& scene, Object& o) {
     if (auto const area = area_of_many(o.shape, o.to_group); area && *area > 0) {
         // Both normalise the spectrum's luminance; what is left of the power is the radiance that a face needs.
         double const sides = l.two_sided ? 2 : 1;
-        l.scale *=
-            static_cast<float>(static_cast<double>(l.power) / (3.14159265358979323846 * *area * sides));
+        l.scale *= static_cast<float>(static_cast<double>(l.power) / (kPiDouble * *area * sides));
         l.power = -1;
     } else if (std::holds_alternative<LoopSubdivision>(o.shape)) {
         scene.note(o.where,

@@ -39,6 +39,14 @@ std::string Writer::ply_file(TriangleMesh const& m) {
     return part("mesh", ".ply", std::move(out));
 }
 
+bool Writer::has_face(Shape const& shape) {
+    return match(
+        shape, [](TriangleMesh const& m) { return !m.triangles.empty(); },
+        [](BilinearMesh const& m) { return !m.patches.empty(); },
+        [](LoopSubdivision const& m) { return !m.triangles.empty(); }, [](auto const&) { return true; });
+}
+
+/// Of a shape that has_face().
 std::string Writer::shape(Shape const& shape, std::string const& more, SourceLocation where) {
     ParamText p;
     auto const points = [&](auto const& m) {
@@ -58,20 +66,17 @@ std::string Writer::shape(Shape const& shape, std::string const& more, SourceLoc
                 p.string("filename", ply_file(m));
                 return "plymesh";
             }
-            if (m.triangles.empty()) refuse(where, "a mesh without a face");
             p.integers("indices", &m.triangles[0].x, 3 * m.triangles.size());
             points(m);
             return "trianglemesh";
         },
         [&](BilinearMesh const& m) {
-            if (m.patches.empty()) refuse(where, "a mesh without a patch");
             p.integers("indices", m.patches[0].data(), 4 * m.patches.size());
             points(m);
             return "bilinearmesh";
         },
         [&](LoopSubdivision const& m) {
-            if (m.triangles.empty() || m.levels > 10)
-                refuse(where, "a subdivision of no face or above 10 levels");
+            if (m.levels > 10) refuse(where, "a subdivision above 10 levels");
             p.integer("levels", m.levels, 3);
             p.integers("indices", &m.triangles[0].x, 3 * m.triangles.size());
             points(m);

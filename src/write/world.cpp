@@ -1,6 +1,8 @@
 // Objects, groups, and the whole.
 #include "writer.h"
 
+#include "scene/affine_rows.h"
+
 #include <utility>
 
 namespace nephroid {
@@ -13,6 +15,8 @@ void Writer::refuse(SourceLocation where, std::string const& what) const {
 }
 
 std::string Writer::object(Object const& o) {
+    // compile() leaves it out as well, before it makes the scene's hash.
+    if (!has_face(o.shape)) return notes_.push_back({o.where, "a mesh without a face is left out"}), "";
     std::string out = "AttributeBegin\n";
     if (!is_identity(o.to_group)) out += "  Transform" + matrix_text(o.to_group) + '\n';
     if (!o.material.valid()) refuse(o.where, "an object without a material");
@@ -45,9 +49,7 @@ std::string Writer::content(Group const& g) {
     std::string out;
     for (Object const& o : g.objects) out += object(o);
     for (Instance const& i : g.instances) {
-        Mat4 m;
-        for (std::size_t r = 0; r < 3; ++r)
-            for (std::size_t k = 0; k < 4; ++k) m.m[r][k] = static_cast<double>(i.to_parent[r][k]);
+        Mat4 const m = matrix_of(i.to_parent);
         std::string const instance = "ObjectInstance " + in_quotes(group(i.group)) + '\n';
         if (is_identity(m))
             out += instance;
@@ -81,6 +83,7 @@ SceneText Writer::write() {
     out.scene = {path_, "# Written by nephroid convert.\n" + head_ + "\nWorldBegin\n" + textures_ + media_ +
                             materials_ + groups_ + world_};
     for (auto& [name, part] : parts_) out.parts.push_back(std::move(part));
+    out.notes = std::move(notes_);
     return out;
 }
 

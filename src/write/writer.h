@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace nephroid {
 
@@ -69,6 +70,7 @@ class Writer {
     std::string lamp_file(IntensityTable const& table, SourceLocation where);
 
     // Shapes and groups (shapes.cpp, world.cpp)
+    static bool has_face(Shape const& shape);
     std::string shape(Shape const& shape, std::string const& more, SourceLocation where);
     std::string ply_file(TriangleMesh const& mesh);
     std::string object(Object const& object);
@@ -93,6 +95,7 @@ class Writer {
     std::map<std::string, std::string> medium_names_;  // by what they absorb, in words
     std::set<std::string> taken_textures_, taken_materials_, taken_groups_;
     std::map<std::string, SceneText::File> parts_;  // by their names
+    std::vector<Note> notes_;
 };
 
 }  // namespace nephroid

@@ -20,7 +20,7 @@ while IFS= read -r scene; do
     run 0 convert "$scene" portable.pbrt --portable
     run 0 info portable.pbrt
     prints "notes       none"
-done < <(find "$scenes" -name '*.pbrt' ! -path '*/include/*' | LC_ALL=C sort)
+done < <(find "$scenes" \( -name '*.pbrt' -o -name '*.ray' \) ! -path '*/include/*' | LC_ALL=C sort)
 round_trip "$scenes/meshes/cup-lip.ply"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0.3\nf 1 2 3\n' >corner.obj
 round_trip corner.obj
@@ -38,6 +38,60 @@ for name in cornell-box cornell-mirror-boxes cornell-spheres; do
         same a.film.exr b.film.exr
     done
 done
+
+# More meshes than files may be open at once.
+for ((i = 0; i < 80; i++)); do
+    {
+        printf 'v %d 0 0\nv 0 1 0\nv 0 0 1\n' $((i + 1))
+        yes 'f 1 2 3' | head -201
+    } >many-$i.obj
+    echo "Shape \"plymesh\" \"string filename\" \"many-$i.obj\""
+done >shapes.pbrt
+echo 'WorldBegin Include "shapes.pbrt"' >many.pbrt
+(
+    ulimit -n 64
+    failures=0
+    run 0 convert many.pbrt many-copy.pbrt
+    exit $failures
+) || failures=$((failures + 1))
+(($(find many-copy_files -name '*.ply' | wc -l) == 80)) || fail "not all meshes were written"
+rm -f many-*.obj
+
+# Through a link to a folder, ".." leads to where that folder lies; both folders have the picture, and they differ.
+mkdir -p away/deep near
+ln -s ../away/deep near/link
+for folder in away near; do
+    byte='>' && [[ $folder == near ]] && byte='='
+    { printf 'PF\n2 1\n-1\n' && head -c 24 /dev/zero | tr '\0' $byte; } >$folder/p.pfm
+done
+cat >near/scene.pbrt <<'SCENE'
+WorldBegin
+LightSource "infinite" "string filename" "link/../p.pfm" "string mapping" "latlong"
+LightSource "infinite" "string filename" "p.pfm" "string mapping" "latlong"
+SCENE
+run 0 info near/scene.pbrt --json
+hashes >before
+grep -q '"image_files": 2' out || fail "the picture behind the link is the one before it"
+run 0 convert near/scene.pbrt near/link/../copy.pbrt
+exists "$(<out)"
+exists away/copy.pbrt
+run 0 info near/link/../copy.pbrt --json
+hashes >after
+same before after
+
+# What render refuses is refused: a picture that is not there.
+echo 'WorldBegin LightSource "infinite" "string filename" "none.exr"' >lost.pbrt
+run 4 info lost.pbrt
+mv err refused
+run 4 convert lost.pbrt lost-copy.pbrt
+same err refused
+absent lost-copy.pbrt
+
+# A mesh without a face is left out, with its place.
+printf 'SBT-raytracer 1.1\nsphere {}\ncone { height = 0 bottom_radius = 0 }\n' >flat.ray
+round_trip flat.ray
+run 0 convert flat.ray copy.pbrt
+says 'flat.ray:3: a mesh without a face is left out'
 
 # Settings of the command line are written down.
 run 0 convert scene.pbrt set.pbrt --integrator sppm --spp 9 --size 20x10 --crop 1,2,11,9 --set radius=0.25 --seed 5 --color rgb
@@ -57,6 +111,15 @@ run 0 convert ours.pbrt theirs.pbrt --portable
 says 'ours.pbrt:1: "whitted" is replaced by "path"'
 says 'ours.pbrt:3: "plastic" is replaced by "coateddiffuse"'
 says 'ours.pbrt:4: "box" is replaced by six bilinear patches'
+
+cat >pane.ray <<'SCENE'
+SBT-raytracer 1.1
+square { material = { transmissive = (0.9, 0.5, 0.5); index = 1 } }
+SCENE
+run 0 convert pane.ray theirs.pbrt --portable --seed 5000000000
+says 'pane.ray: colours are spectra'
+says 'pane.ray: the seed is cut'
+says 'pane.ray:2: "metallicroughness" is replaced by glass without its colour'
 
 # What is refused leaves nothing behind.
 run 2 convert scene.pbrt out.exr

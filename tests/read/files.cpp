@@ -37,6 +37,21 @@ TEST_CASE("Include goes on in the middle of the state; names are relative to the
     CHECK(scene.locate(scene.world().objects[0].where) == (folder.path() / "a/more.pbrt:2").string());
 }
 
+TEST_CASE("a link's folder is left by \"..\" as the system leaves it, and other detours are not shown") {
+    Folder const folder;
+    folder.write("away/deep/none.ply", "");
+    folder.write("away/tri.pbrt", "Shape \"disk\"");
+    folder.write("tri.pbrt", "Shape \"sphere\"");
+    std::filesystem::create_directory_symlink("away/deep", folder.path() / "link");
+    auto const scene = read_scene(folder.write(
+        "main.pbrt", "WorldBegin Include \"link/../tri.pbrt\" Include \"away/../no/../tri.pbrt\""));
+    shape_of<Disk>(scene, 0);
+    shape_of<Sphere>(scene, 1);
+    auto const file = [&](std::size_t object) { return scene.locate(scene.world().objects[object].where); };
+    CHECK(file(0) == (std::filesystem::canonical(folder.path()) / "away/tri.pbrt:1").string());
+    CHECK(file(1) == (folder.path() / "tri.pbrt:1").string());
+}
+
 TEST_CASE("Import gives nothing of its state back") {
     Folder const folder;
     folder.write("i.pbrt",

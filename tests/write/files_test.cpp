@@ -95,6 +95,37 @@ TEST_CASE("what cannot be written leaves nothing, and what was there before stay
     std::filesystem::create_directory(folder / "taken.pbrt");
     CHECK_THROWS_AS(write_pbrt(s, folder / "taken.pbrt"), Error);
     CHECK_FALSE(std::filesystem::exists(folder / "taken_files"));
+    // A part that was there before stays; those that came with the attempt go.
+    write_pbrt(s, folder / "part.pbrt");
+    std::filesystem::rename(folder / "part_files", folder / "taken_files");
+    CHECK_THROWS_AS(write_pbrt(of_meshes({grid(20), grid(21), grid(22)}), folder / "taken.pbrt"), Error);
+    CHECK(files_in(folder / "taken_files") == 1);
+}
+
+TEST_CASE("meshes without a face are left out with a word, and the scene is the one that is rendered") {
+    Folder const folder;
+    TriangleMesh many_points = grid(20);
+    many_points.triangles.clear();
+    Scene s = of_meshes({TriangleMesh{}, grid(3), many_points});
+    s.world().objects.push_back({.shape = BilinearMesh{}, .material = s.world().objects[0].material});
+    s.world().objects.push_back({.shape = LoopSubdivision{}, .material = s.world().objects[0].material});
+    auto const notes = write_pbrt(s, folder / "out.pbrt");
+    CHECK(notes.size() == 4);
+    drop_degenerate(s);
+    CHECK(hash(read_scene(folder / "out.pbrt")) == hash(s));
+}
+
+TEST_CASE("a link's folder is left by \"..\" as the system leaves it") {
+    Folder const folder;
+    std::filesystem::create_directories(folder / "far/deep");
+    std::filesystem::create_directories(folder / "near");
+    std::filesystem::create_directory_symlink(folder / "far/deep", folder / "near/link");
+    for (char const* place : {"far", "near"}) std::ofstream(folder / place / "sky.exr") << place;
+    Scene s = of_meshes({grid(20)});
+    for (char const* name : {"near/link/../sky.exr", "near/sky.exr"})
+        s.add(Light{InfiniteLight{.image = s.add(ImageFile{(folder / name).string(), ""})}});
+    for (char const* name : {"near/link/../out.pbrt", "near/out.pbrt", "far/out.pbrt"})
+        CHECK(hash(there_and_back(s, folder / name)) == hash(s));
 }
 
 TEST_CASE("broken scenes and what has no form are refused, with their places") {

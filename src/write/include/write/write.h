@@ -12,7 +12,8 @@ namespace nephroid {
 struct WriteOptions {
     /// Only what pbrt-v4 itself knows: shapes, materials and settings of ours are replaced by the nearest
     /// thing, with a note. Otherwise everything is kept, and reading the file gives a scene of the same
-    /// hash.
+    /// hash; but meshes without a face, which compile() leaves out and the language cannot say, are left
+    /// out, with a note.
     bool portable = false;
 };
 
@@ -26,14 +27,15 @@ struct SceneText {
     /// what is in them, so that a file of that name which is there already is the same.
     std::vector<File> parts;
     File scene;
-    std::vector<Note> notes;  // what was replaced
+    std::vector<Note> notes;  // what was replaced or left out
 };
 
 /// `scene`, settings and all, as pbrt-v4 text that is to be called `path`. Large meshes go into PLY files;
 /// pictures and other files are named where they are. Throws what validate() throws, and Error(Input) for
 /// what has no form in the language.
 SceneText pbrt_text(Scene const& scene, std::filesystem::path const& path, WriteOptions const& options = {});
-/// All of it or nothing: throws Error(Io).
+/// All of it or nothing: throws Error(Io), and parts that were not there before are gone again. The scene
+/// comes last: who sees it has its parts.
 void write_files(SceneText const& text);
 
 /// Both.
