@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # page.sh PROGRAM NAME DOCS [BYTES]: a quick run of an experiment writes a page that is whole, the same on every run, and has the
-# sections of the one that is checked in (DOCS/NAME.md), whose pictures are all there as well; that has BYTES at most.
+# sections of the one that is checked in (DOCS/NAME.md), whose pictures are all there as well; that has BYTES at most. A run that is
+# killed leaves the page that was there.
 set -euo pipefail
 program=$1 name=$2 docs=$3 most=${4:-1500000}
 work=$(mktemp -d)
@@ -29,8 +30,19 @@ whole() { # whole FOLDER: every picture that the page shows is there, and no oth
 }
 
 "$program" --quick "$work/a"
-"$program" --quick "$work/b" 2>/dev/null
 [[ -s $work/a/$name.md ]] || { echo "FAILED: no page" && exit 1; }
+cp -r "$work/a" "$work/b"
+"$program" --quick "$work/b" 2>/dev/null &
+killed=$!
+for ((i = 0; i < 600; i++)); do # until it has made something
+    [[ -z $(ls -A "$work/b/$name.new" 2>/dev/null) ]] || break
+    sleep 0.1
+done
+kill -KILL "$killed" 2>/dev/null || fail "the run was over before it could be killed"
+wait "$killed" 2>/dev/null || true
+[[ -d $work/b/$name.new ]] || fail "a run that was killed left nothing half done"
+diff -r -x '*.new' "$work/a" "$work/b" || fail "a run that was killed spoils the page"
+"$program" --quick "$work/b" 2>/dev/null
 diff -r "$work/a" "$work/b" || fail "two runs differ"
 whole "$work/a"
 rows=$(grep -cE '^\|.*[0-9]' "$work/a/$name.md")

@@ -58,4 +58,13 @@ double box_irradiance(Vec3 receiver, Point lo, Point hi) {
     return sum;
 }
 
+double fresnel_reflectance(double cosine, std::complex<double> index) {
+    std::complex<double> const sine =
+        std::sqrt(1 - cosine * cosine) / index;                        // of the refracted ray: Snell's law
+    std::complex<double> const inside = std::sqrt(1.0 - sine * sine);  // its cosine
+    std::complex<double> const s = (cosine - index * inside) / (cosine + index * inside);
+    std::complex<double> const p = (index * cosine - inside) / (index * cosine + inside);
+    return (std::norm(s) + std::norm(p)) / 2;
+}
+
 }  // namespace nephroid::experiment

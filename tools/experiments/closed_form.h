@@ -1,9 +1,11 @@
-// Irradiance of a horizontal receiver (normal +z) under lights of radiance 1, without occlusion. Double precision.
+// What formulas say: irradiance of a horizontal receiver (normal +z) under lights of radiance 1, without occlusion, and Fresnel's
+// reflectance. Double precision, and nothing of the renderer's own.
 #pragma once
 
 #include "math/vec.h"
 
 #include <array>
+#include <complex>
 #include <vector>
 
 namespace nephroid::experiment {
@@ -17,5 +19,9 @@ double polygon_irradiance(Vec3 receiver, std::vector<Point> const& corners);
 double parallelogram_irradiance(Vec3 receiver, Point origin, Point u, Point v);
 /// The faces of an axis-aligned box that shines outwards.
 double box_irradiance(Vec3 receiver, Point lo, Point hi);
+
+/// Reflectance of a smooth surface of refractive index `index` (eta + ik; a dielectric has k = 0), seen from outside, to unpolarised
+/// light: the mean of |r|^2 of Fresnel's two amplitudes (Born & Wolf, Principles of Optics, 1.5.2 and 14.2).
+double fresnel_reflectance(double cosine, std::complex<double> index);
 
 }  // namespace nephroid::experiment

@@ -2,10 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <optional>
+#include <thread>
 
 namespace nephroid::experiment {
 
@@ -20,8 +23,9 @@ void write_page(Experiment const& experiment, std::filesystem::path const& folde
     Lab lab{page, quick,
             std::filesystem::temp_directory_path() / ("nephroid-experiment-" + std::to_string(getpid()))};
     bool const gallery = experiment.gallery > 0;
-    if (gallery) lab.full = folder / "full", lab.enlarge = experiment.gallery;
-    std::filesystem::remove_all(folder / "full");
+    std::optional<NewFolder> full;
+    if (gallery)
+        full.emplace(folder / kFullFolder), lab.full = full->path(), lab.enlarge = experiment.gallery;
     std::filesystem::create_directories(lab.scratch);
     if (quick) page.text("**A quick run: the numbers show that the program works, and nothing else.**");
     experiment.introduction(page);
@@ -32,12 +36,18 @@ void write_page(Experiment const& experiment, std::filesystem::path const& folde
         s.run(lab);
         if (gallery && !quick) page.text("Made in " + number(seconds() - begin) + " s.");
     }
+    if (full) full->keep();
     page.write(gallery);
     std::filesystem::remove_all(lab.scratch);
     std::fprintf(stderr, "%5.1f s  done: %s.md\n", seconds(), (folder / experiment.name).c_str());
 }
 
 }  // namespace
+
+std::string processors() {
+    unsigned const n = std::max(1u, std::thread::hardware_concurrency());
+    return std::to_string(n) + (n == 1 ? " processor" : " processors");
+}
 
 int run_experiment(Experiment const& experiment, int argc, char** argv) {
     bool const quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;

@@ -22,6 +22,9 @@ struct Experiment {
     int gallery = 0;
 };
 
+/// "2 processors": what the times on a page were taken with, since a render takes all that there are.
+std::string processors();
+
 /// Exit code: 2 for wrong arguments, 1 for what failed, which stderr then says, as it says what is being done. A run with
 /// --quick says on the page that it was one.
 int run_experiment(Experiment const& experiment, int argc, char** argv);

@@ -8,6 +8,9 @@
 
 namespace nephroid::experiment {
 
+/// Where a page finds pictures in full size, beside it.
+inline constexpr char const* kFullFolder = "full";
+
 struct Lab {
     Page& page;
     bool quick = false;             // a run of seconds that shows that everything works, and nothing else

@@ -119,9 +119,8 @@ double relative_rmse(Picture const& p, Picture const& reference) {
 }
 
 Reference reference_by_samples(Setup const& setup, std::string const& directives, std::uint64_t passes) {
-    // Seeds that no measurement uses.
-    Picture const a = render_picture(setup, directives, passes, 0x5eed0001);
-    Picture const b = render_picture(setup, directives, passes, 0x5eed0002);
+    Picture const a = render_picture(setup, directives, passes, kReferenceSeeds[0]);
+    Picture const b = render_picture(setup, directives, passes, kReferenceSeeds[1]);
     Reference r{a, relative_rmse(a, b) / 2};
     for (std::size_t i = 0; i < a.rgb.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) r.picture.rgb[i][c] = (a.rgb[i][c] + b.rgb[i][c]) / 2;

@@ -60,10 +60,10 @@ std::string with_error(double value, double error) {
 }
 
 Page::Page(std::filesystem::path folder, std::string name, std::string const& title)
-    : folder_(std::move(folder)), name_(std::move(name)), text_("# " + title + "\n") {
-    std::filesystem::remove_all(folder_ / name_);
-    std::filesystem::create_directories(folder_ / name_);
-}
+    : folder_(std::move(folder)),
+      name_(std::move(name)),
+      pictures_(folder_ / name_),
+      text_("# " + title + "\n") {}
 
 void Page::section(std::string const& title) { text_ += "\n## " + title + "\n"; }
 void Page::subsection(std::string const& title) { text_ += "\n### " + title + "\n"; }
@@ -84,10 +84,11 @@ void Page::table(std::vector<std::string> const& head, std::vector<std::vector<s
 void Page::image(std::string const& name, std::string const& alt) {
     text_ += "\n![" + alt + "](" + name_ + "/" + name + ")\n";
 }
-std::filesystem::path Page::file(std::string const& name) const { return folder_ / name_ / name; }
+std::filesystem::path Page::file(std::string const& name) const { return pictures_.path() / name; }
 void Page::save(std::string const& name, std::string const& text) const { write_text(file(name), text); }
 void Page::for_browsers(std::string const& paragraph) { text_ += "\n<!-- " + paragraph + " -->\n"; }
-void Page::write(bool html) const {
+void Page::write(bool html) {
+    pictures_.keep();
     write_text(folder_ / (name_ + ".md"), text_);
     if (html) write_text(folder_ / (name_ + ".html"), html_of(text_));
 }

@@ -2,6 +2,8 @@
 // not measured.
 #pragma once
 
+#include "new_folder.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,7 +21,7 @@ std::string with_error(double value, double error);
 
 class Page {
   public:
-    /// folder/name.md and folder/name/…; what the latter held before is removed.
+    /// folder/name.md and folder/name/…, both as they were until write().
     Page(std::filesystem::path folder, std::string name, std::string const& title);
 
     void section(std::string const& title);
@@ -31,17 +33,20 @@ class Page {
     void table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows);
     /// A paragraph that only the HTML page has, as Markdown.
     void for_browsers(std::string const& paragraph);
-    /// A picture that is, or will be, at file(name).
+    /// A picture that is, or will be, at file(name): a place that holds until write().
     void image(std::string const& name, std::string const& alt);
     [[nodiscard]] std::filesystem::path file(std::string const& name) const;
     void save(std::string const& name, std::string const& text) const;
 
-    /// As Markdown, and as HTML beside it if asked for. Throws Error(Io).
-    void write(bool html = false) const;
+    /// Once, at the end: the pictures take the place of those that were there, and the page that of the page, as Markdown, and as
+    /// HTML beside it if asked for. Throws Error(Io), std::filesystem::filesystem_error.
+    void write(bool html = false);
 
   private:
     std::filesystem::path folder_;
-    std::string name_, text_;
+    std::string name_;
+    NewFolder pictures_;
+    std::string text_;
 };
 
 }  // namespace nephroid::experiment

@@ -156,7 +156,6 @@ void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
     write_sheet(lab.page.file(name), columns, small);
     lab.page.image(name, alt);
     if (lab.full.empty()) return;
-    std::filesystem::create_directories(lab.full);
     std::string const stem = std::filesystem::path(name).stem().string();
     std::string links;
     for (SheetRow const& r : rows)
@@ -165,7 +164,7 @@ void show_sheet(Lab const& lab, std::string const& name, std::string const& alt,
                 (r.label.empty() ? "" : r.label + " ") + (i < columns.size() ? columns[i] : "");
             std::string const file = stem + "-" + file_name(label.empty() ? std::to_string(i + 1) : label);
             save_full(lab.full / file, r.pictures[i], r.exposure);
-            std::string const at = lab.full.filename().string() + "/" + file;
+            std::string const at = std::string(kFullFolder) + "/" + file;
             links += (links.empty() ? "Full size: " : ", ") + std::string("[") +
                      (label.empty() ? "picture" : label) + "](" + at + ".png) ([EXR](" + at + ".exr))";
         }

@@ -3,11 +3,14 @@
 #include "runs.h"
 
 #include "closed_form.h"
+#include "image/compare.h"
 #include "scenes.h"
 #include "sheet.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace nephroid::experiment {
@@ -19,6 +22,18 @@ constexpr Point kLow{-0.5, -0.5, 0.5}, kHigh{0.5, 0.5, 1.3};
 constexpr double kReflectance = 0.5;
 
 double radiance(Vec3 p) { return kReflectance / std::numbers::pi * box_irradiance(p, kLow, kHigh); }
+
+/// What the largest |t| of so many means over so many seeds is below with a probability of 95% at least, when all are right, and
+/// however they depend on each other (Bonferroni).
+double largest_of(int count, int seeds) {
+    double const alpha = 0.05 / count;
+    double low = 0, high = 1e6;
+    while (high - low > 1e-6 * high) {
+        double const middle = (low + high) / 2;
+        (student_t_two_sided(middle, seeds - 1) > alpha ? low : high) = middle;
+    }
+    return high;
+}
 
 }  // namespace
 
@@ -63,6 +78,7 @@ void box_light_means(Lab const& lab) {
     for (auto const& c : exact.picture.rgb) rows[0].push_back(number(c[0], 4));
     double worst = 0;
     double off = 0;
+    int compared = 0;
     for (char const* shapes : kBoxShapes) {
         auto const m = means_by_pixel(setup, box_samples(shapes), passes, seeds);
         std::vector<std::string> row{fmt::format("`{}`", shapes)};
@@ -72,23 +88,23 @@ void box_light_means(Lab const& lab) {
             if (shapes == std::string("visibleunweighed")) {
                 worst = std::max(worst, std::abs(m[i].mean / truth - 1));
             } else if (m[i].error > 0) {
-                off = std::max(off, std::abs(m[i].mean - truth) / m[i].error);
+                off = std::max(off, std::abs(m[i].mean - truth) / m[i].error), ++compared;
             }
         }
         rows.push_back(row);
     }
     page.table({"mean against the closed form, x =", "0.25", "0.75", "1.25", "1.75", "2.25", "2.75"}, rows);
     page.text(
-        fmt::format("Differences of the mean of {} samples, with their standard errors. Of the four that are "
-                    "meant to be right, the "
-                    "farthest is {} standard errors off (of 24, over sixteen seeds each, the largest is "
-                    "below 3.8 nineteen times out of twenty). "
+        fmt::format("Differences of the mean of {} samples, with their standard errors. Of the ways that are "
+                    "meant to be right, the farthest is {} standard errors off (of {} means over {} seeds "
+                    "each, the largest is below {} in 95% of runs or more). "
                     "`visibleunweighed` chooses any visible face with the same probability and divides by "
                     "the density of a choice by "
                     "area: it is there to show what that does, {} at most here, and is not for pictures. "
                     "Where one face alone is seen "
                     "there is nothing to choose, and it is right.",
-                    passes * static_cast<std::uint64_t>(seeds), number(off, 2), percent(worst)));
+                    passes * static_cast<std::uint64_t>(seeds), number(off, 2), compared, seeds,
+                    number(largest_of(compared, seeds), 2), percent(worst)));
 }
 
 }  // namespace nephroid::experiment

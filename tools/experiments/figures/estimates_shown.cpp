@@ -33,12 +33,21 @@ std::vector<std::string> counted(Lab const& lab, std::string const& what, std::u
 }
 std::vector<std::string> const kCounts{"", "wanted", "emitted", "stored", "stored per path", "time"};
 
+struct Seen {
+    std::string directives;  // as they were run
+    Run run;
+};
 /// One of the maps, with about so many photons.
-Run map_seen(Setup const& setup, ShotKind kind, std::uint64_t photons, int k) {
+Seen map_seen(Setup const& setup, ShotKind kind, std::uint64_t photons, int k) {
     auto const directives = [&](std::uint64_t paths) {
         return kind == ShotKind::Caustic ? show("caustic", 0, paths, k) : show("global", paths, 0, k);
     };
-    return run(setup, directives(paths_that_store(setup, directives(1000), kind, photons)), 1);
+    std::string const asked = directives(paths_that_store(setup, directives(1000), kind, photons));
+    return {asked, run(setup, asked, 1)};
+}
+
+void add_code(std::string& code, std::string const& label, std::string const& directives) {
+    code += "# " + label + "\n" + directives + "\n";
 }
 
 void global_counts(Lab const& lab) {
@@ -49,18 +58,20 @@ void global_counts(Lab const& lab) {
     page.text(
         "The report's Figure 20. The radiance that the global map says is there, at the first surface that "
         "is not specular: direct light, caustics and all, with nothing sampled. 100 photons an estimate.");
-    page.code(show("global", 100000, 0, 100));
     SheetRow row{"", {}, 1};
+    std::string code;
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
     for (std::uint64_t const wanted : {10000u, 50000u, 500000u}) {
         std::uint64_t const photons = lab.quick ? wanted / 50 : wanted;
-        Run r = map_seen(setup, ShotKind::Global, photons, 100);
-        labels.push_back(thousands(wanted) + " photons");
+        auto [directives, r] = map_seen(setup, ShotKind::Global, photons, 100);
+        labels.push_back(thousands(photons) + " photons");
+        add_code(code, labels.back(), directives);
         rows.push_back(counted(lab, "global map", photons, r.photons.global, r.seconds));
         row.pictures.push_back(std::move(r.picture));
     }
     row.exposure = exposure_for(row.pictures.back(), 0.93);
+    page.code(code);
     show_sheet(lab, "global.png", "The global map, seen: 10,000, 50,000 and 500,000 photons", labels, {row});
     page.table(kCounts, rows);
 }
@@ -72,21 +83,23 @@ void caustics(Lab const& lab) {
         "The report's Figure 21: caustics alone, 60 photons an estimate; each picture with an exposure of "
         "its own. Plane "
         "mirrors throw patches, glass gathers spots, round mirrors spread the light.");
-    page.code(show("caustic", 0, 100000, 60));
     int const n = lab.pixels(200);
     std::uint64_t const photons = lab.quick ? 4000 : 1000000;
     std::vector<SheetRow> sheet(1);
+    std::string code;
     std::vector<std::string> labels;
     std::vector<std::vector<std::string>> rows;
     for (auto const& [label, file, share] : {std::tuple{"mirror boxes", "21-mirror-boxes", 0.98},
                                              {"glass balls", "21-glass-balls", 0.9945},
                                              {"mirror balls", "21-mirror-balls", 0.985}}) {
         Setup const setup = sized_file(std::string("report/") + file + ".pbrt", n, n);
-        Run r = map_seen(setup, ShotKind::Caustic, photons, 60);
+        auto [directives, r] = map_seen(setup, ShotKind::Caustic, photons, 60);
         labels.emplace_back(label);
+        add_code(code, fmt::format("scenes/report/{}.pbrt", file), directives);
         rows.push_back(counted(lab, label, photons, r.photons.caustic, r.seconds));
         sheet[0].pictures.push_back(exposed(std::move(r.picture), share));
     }
+    page.code(code);
     show_sheet(lab, "caustics.png", "The caustic map, seen: mirror boxes, glass balls and mirror balls",
                labels, sheet);
     page.table(kCounts, rows);
@@ -99,7 +112,6 @@ void both_maps(Lab const& lab) {
         "The report's Figure 22: each map, and their sum; 88 photons an estimate. By itself the global map "
         "holds "
         "all photons, those of caustics as well; in the sum it leaves them to the other.");
-    page.code(show("global|caustic|both", 50000, 50000, 88));
     int const n = lab.pixels(200);
     Setup const setup = sized_file("report/16-spheres.pbrt", n, n);
     std::uint64_t const photons = lab.quick ? 1000 : 50000;
@@ -107,15 +119,19 @@ void both_maps(Lab const& lab) {
     std::uint64_t const global = paths_that_store(setup, pilot, ShotKind::Global, photons);
     std::uint64_t const caustic = paths_that_store(setup, pilot, ShotKind::Caustic, photons);
     SheetRow row{"", {}, 1};
+    std::string code;
     std::vector<std::vector<std::string>> rows;
     for (std::string const view : {"global", "caustic", "both"}) {
-        Run r = run(setup, show(view, global, caustic, 88), 1);
+        std::string const directives = show(view, global, caustic, 88);
+        add_code(code, view, directives);
+        Run r = run(setup, directives, 1);
         PhotonCounts const g = total(r.photons.global), c = total(r.photons.caustic);
         rows.push_back({view, thousands(g.stored), thousands(c.stored), number(mean(r.picture)),
                         time_taken(lab, r.seconds)});
         row.pictures.push_back(std::move(r.picture));
     }
     row.exposure = exposure_for(row.pictures.back(), 0.93);
+    page.code(code);
     show_sheet(lab, "maps.png", "Global map, caustic map, and both", {"global", "caustic", "both"}, {row});
     page.table({"", "global photons stored", "caustic photons stored", "mean radiance", "time"}, rows);
 }

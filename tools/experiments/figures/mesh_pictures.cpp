@@ -1,5 +1,6 @@
 #include "mesh_pictures.h"
 
+#include "light_classes.h"
 #include "runs.h"
 #include "sheet.h"
 
@@ -12,40 +13,51 @@ void mesh_pictures(Lab const& lab, MeshFigure const& figure) {
     lab.page.code(directives);
     bool const by_paths = figure.limit.empty();
     if (!by_paths) lab.page.code(figure.limit);
+    std::string const limit = by_paths ? directives : figure.limit;
     std::uint64_t const many = lab.passes(by_paths ? 320 : 96);
+    std::string const reference_words = fmt::format("2 x {} {}", many, by_paths ? "samples" : "passes");
     Vec2i const size = figure.mirror.settings.film.resolution;
     std::vector<SheetRow> sheet;
     std::vector<std::vector<std::string>> rows;
     for (auto const& [material, setup] :
          {std::pair<std::string, Setup const&>{"mirror", figure.mirror}, {"glass", figure.glass}}) {
-        Run const limit = by_paths ? Run{} : run(setup, figure.limit, many);
-        Picture const reference =
-            by_paths ? reference_by_samples(setup, directives, many).picture : limit.picture;
-        SheetRow row{material, {}, exposure_for(reference, 0.95)};
+        ReferenceByClass const reference = reference_by_class(setup, limit, many);
+        SheetRow row{material, {}, exposure_for(reference.light.whole, 0.95)};
         for (std::uint64_t const samples : {10, 50}) {
             Run r = run(setup, directives, samples);
             double const rate = static_cast<double>(samples) * size.x * size.y / r.seconds / 1e6;
+            std::vector<std::string> cells{fmt::format("{}, {} samples", material, samples),
+                                           number(mean(r.picture)),
+                                           percent(relative_rmse(r.picture, reference.light.whole))};
+            // Once more, with layers, which the time above is without.
+            for (double const share :
+                 shares_of_error(render_by_class(setup, directives, samples), reference.light))
+                cells.push_back(fixed(100 * share, 1) + "%");
+            cells.push_back(time_taken(lab, r.seconds));
             // A quick run has to be the same twice.
-            rows.push_back({fmt::format("{}, {} samples", material, samples),
-                            percent(relative_rmse(r.picture, reference)), time_taken(lab, r.seconds),
-                            lab.quick ? "not taken" : number(rate) + " million"});
+            cells.push_back(lab.quick ? "not taken" : number(rate) + " million");
+            rows.push_back(std::move(cells));
             row.pictures.push_back(std::move(r.picture));
         }
-        row.pictures.push_back(reference);
+        row.pictures.push_back(reference.light.whole);
         sheet.push_back(std::move(row));
-        if (!by_paths)
-            rows.push_back(
-                {fmt::format("{}, {} passes", material, many), "", time_taken(lab, limit.seconds), ""});
+        rows.push_back({material + ", " + reference_words, number(mean(reference.light.whole)),
+                        percent(reference.error) + " (estimated)", "", "", "", "",
+                        time_taken(lab, reference.light.seconds), ""});
     }
-    show_sheet(lab, figure.sheet, figure.alt,
-               {"10 samples", "50 samples",
-                by_paths ? fmt::format("{} samples", 2 * many) : fmt::format("{} passes", many)},
-               sheet);
-    lab.page.table({fmt::format("{} × {} pixels", size.x, size.y), "error", "time", "samples a second"},
+    show_sheet(lab, figure.sheet, figure.alt, {"10 samples", "50 samples", reference_words}, sheet);
+    lab.page.table({fmt::format("{} × {} pixels", size.x, size.y), "mean radiance", "error",
+                    "of its square: direct light", "caustics", "indirect light", "lamps in mirrors and glass",
+                    "time", "samples a second"},
                    rows);
     lab.page.text(
-        "Light that glass gathers on the walls is met by chance alone when paths come from the camera: what "
-        "is left of the error at 50 samples is caustics.");
+        "The error of the reference is estimated from its two renders" +
+        std::string(by_paths ? "" : ": what photon maps blur alike in both is not in it") +
+        ". The squares of errors are parted by the ways of light, as `--aovs` keeps them: by the mean of "
+        "each "
+        "way's difference times the whole difference, so that they add up to the whole. Caustics are what "
+        "mirrors and glass throw on the first surface that is neither: paths from the camera meet them by "
+        "chance alone.");
 }
 
 }  // namespace nephroid::experiment

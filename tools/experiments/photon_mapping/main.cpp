@@ -39,8 +39,8 @@ void introduction(Page& page) {
         "**relMSE** is the mean of (a − b)² / (b² + 0.01) over pixels and channels, b being the reference. "
         "**Error** is the relative RMSE: the root of the mean squared difference as a share of the "
         "reference's mean.",
-        "Renders are functions of scene, settings and seed. Times alone are the machine's: it had two "
-        "cores. A quick run takes none.",
+        "Renders are functions of scene, settings and seed. Times alone are the machine's: it had " +
+            processors() + ". A quick run takes none.",
     });
 }
 

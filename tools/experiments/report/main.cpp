@@ -37,10 +37,12 @@ void introduction(Page& page) {
         "by");
     page.code("./dev report");
     page.text(
-        "which renders and measures everything again and writes this page, also as HTML, with pictures in "
-        "full size (EXR and "
-        "PNG): no number or picture on it was put there by hand. Times are the machine's, which had two "
-        "cores.");
+        "which renders and measures everything again and writes this page, also as HTML: no number or "
+        "picture on it was put there by hand. Times are the machine's, which had " +
+        processors() + ".");
+    page.text(
+        "Pictures in full size (EXR and PNG), to which the HTML page links, are in the folder `full/` beside "
+        "it. That folder is not in the repository: it appears after `./dev report`.");
 }
 
 }  // namespace

@@ -18,22 +18,33 @@ namespace {
 
 constexpr char const* kScene = "report/01-path.pbrt";
 
-/// Diffuse, thrown back by a mirror and through glass, lit where it asked and where it did not, and short enough to draw.
-bool shows_everything(PathRecord const& r) {
-    if (r.vertices.size() < 5 || r.vertices.size() > 8) return false;
-    int mirrors = 0, glass = 0, diffuse = 0;
+constexpr std::size_t kFewest = 5, kMost = 8;  // vertices: short enough to draw
+
+/// What happens along a path.
+struct Events {
+    int mirrors = 0, glass = 0,
+        diffuse = 0;                   // where it goes on: specular reflection and transmission, diffuse
+    std::ptrdiff_t lit = 0, dark = 0;  // where it asks the lamp: found, and hidden
+};
+Events events_of(PathRecord const& r) {
+    Events e;
     for (PathVertex const& v : r.vertices)
         for (Scattering const& s : v.scatterings) {
             if (v.end != PathEnd::GoesOn) continue;
-            mirrors += s.kind == ScatterKind::Specular && !s.transmitted;
-            glass += s.kind == ScatterKind::Specular && s.transmitted;
-            diffuse += s.kind == ScatterKind::Diffuse;
+            e.mirrors += s.kind == ScatterKind::Specular && !s.transmitted;
+            e.glass += s.kind == ScatterKind::Specular && s.transmitted;
+            e.diffuse += s.kind == ScatterKind::Diffuse;
         }
-    auto const lit =
-        std::count_if(r.tried.begin(), r.tried.end(), [](auto const& t) { return t.passing > 0; });
-    auto const dark =
-        std::count_if(r.tried.begin(), r.tried.end(), [](auto const& t) { return t.passing == 0; });
-    return mirrors >= 1 && glass >= 2 && diffuse >= 2 && lit >= 1 && dark >= 1;
+    e.lit = std::count_if(r.tried.begin(), r.tried.end(), [](auto const& t) { return t.passing > 0; });
+    e.dark = std::count_if(r.tried.begin(), r.tried.end(), [](auto const& t) { return t.passing == 0; });
+    return e;
+}
+
+/// Diffuse, thrown back by a mirror and through glass, lit where it asked and where it did not.
+bool shows_everything(PathRecord const& r) {
+    if (r.vertices.size() < kFewest || r.vertices.size() > kMost) return false;
+    Events const e = events_of(r);
+    return e.mirrors >= 1 && e.glass >= 2 && e.diffuse >= 2 && e.lit >= 1 && e.dark >= 1;
 }
 
 PathRecord first_that_shows_everything(RenderJob const& job) {
@@ -107,14 +118,18 @@ void path_schematic(Lab const& lab) {
     check(job, record);
     page.text(
         fmt::format("A path of the renderer: pass {} in pixel {},{}, the first (pass by pass, row by row) of "
-                    "five to eight vertices that goes "
-                    "through the glass ball, is thrown back by a mirror (the block, or the ball's surface), "
-                    "is scattered by two diffuse surfaces, "
-                    "finds the lamp once and is denied it once. It was replayed: a pass is a pure function, "
-                    "so the path of one pixel is walked again "
-                    "by the code that renders, which says what it does. A render of that pass alone has the "
-                    "same bits in that pixel.",
-                    record.pass, record.pixel.x, record.pixel.y));
+                    "{} to {} vertices that goes through the glass ball, is thrown back by a mirror (the "
+                    "block, or the ball's surface), is scattered by two diffuse surfaces or more, and asks "
+                    "for the lamp both where it is seen and where something hides it. It was replayed: a "
+                    "pass is a pure function, so the path of one pixel is walked again by the code that "
+                    "renders, which says what it does. A render of that pass alone has the same bits in that "
+                    "pixel.",
+                    record.pass, record.pixel.x, record.pixel.y, kFewest, kMost));
+    Events const e = events_of(record);
+    page.table({"vertices", "specular reflections", "specular transmissions", "diffuse reflections",
+                "lamp found", "lamp hidden"},
+               {{std::to_string(record.vertices.size()), std::to_string(e.mirrors), std::to_string(e.glass),
+                 std::to_string(e.diffuse), std::to_string(e.lit), std::to_string(e.dark)}});
     page.code(fmt::format(
         "nephroid render scenes/{} --size {}x{} --color rgb --replay {},{},{} -o path.svg -o path.png",
         kScene, n, n, record.pass, record.pixel.x, record.pixel.y));

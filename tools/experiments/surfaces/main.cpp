@@ -31,8 +31,8 @@ void introduction(Page& page) {
         "glTF's is the root of alpha.",
         "**Compensation** is the option `multiscatter`: what microfacets reflect among themselves comes "
         "back (Kulla & Conty 2017). pbrt-v4's materials have none, so that it is off by default.",
-        "All renders are functions of scene, settings and seed. Times alone are the machine's: it had two "
-        "cores.",
+        "All renders are functions of scene, settings and seed. Times alone are the machine's: it had " +
+            processors() + ".",
     });
 }
 
