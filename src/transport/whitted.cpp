@@ -10,7 +10,7 @@ namespace {
 
 /// The number of a node's first or second child (`which` is 0 or 1), which is at `depth`: as in a heap, whose root is 1, down to
 /// depth 27. A node owns eight of the sampler's 2^32 dimensions: below, nodes share the other half of them by a hash, in which two
-/// of a thousand nodes meet once in 500 trees, and have the same random numbers then.
+/// of a thousand nodes meet in one tree of 500, and have the same random numbers then.
 std::uint32_t child_of(std::uint32_t node, std::uint32_t which, int depth) {
     constexpr std::uint32_t kHeap = 1u << 28;
     static_assert(dimension::kPerVertex == 8 &&

@@ -79,11 +79,12 @@ std::vector<Kind> kinds() {
 }  // namespace
 
 TEST_CASE("a replayed path is what the film got, to the bit") {
-    for (auto const& [scene_name, make] : {std::pair{"room", +[] { return room_of_everything(false); }},
-                                           {"room under a sky", +[] { return room_of_everything(true); }},
-                                           {"bodies", +[] { return bodies(); }}})
+    for (auto const& [name, make] : {std::pair{"room", +[] { return room_of_everything(false); }},
+                                     {"room under a sky", +[] { return room_of_everything(true); }},
+                                     {"bodies", +[] { return bodies(); }}})
         for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral})
             for (Kind const& kind : kinds()) {
+                char const* const scene_name = name;  // clang 14 captures no structured bindings
                 CAPTURE(scene_name);
                 CAPTURE(kind.name);
                 World const world = compile(make());
