@@ -188,7 +188,7 @@ int run(RenderOptions const& o) {
     Log log(json, o.quiet);
     std::optional<ReplayRequest> const asked = replay_request(o);
     std::vector<std::string> outputs = asked ? asked->pictures : o.outputs;
-    check_outputs(outputs);
+    check_outputs(outputs, asked.has_value());
     if (!o.checkpoint.empty()) check_target("--checkpoint", o.checkpoint, true);
     if (!o.stats.empty()) check_target("--stats", o.stats);
     std::optional<double> const seconds = o.time.empty() ? std::nullopt : std::optional(seconds_of(o.time));

@@ -72,15 +72,14 @@ void check_target(std::string const& option, std::string const& file, bool check
     }
 }
 
-void check_outputs(std::vector<std::string> const& outputs) {
+void check_outputs(std::vector<std::string> const& outputs, bool replay) {
     static constexpr char const* known[] = {".exr", ".png", ".jpg", ".jpeg", ".pfm", ".hdr"};
     for (std::string const& out : outputs) {
         std::string const extension = extension_of(out);
         if (std::none_of(std::begin(known), std::end(known), [&](char const* k) { return extension == k; }))
             throw Error(ErrorKind::Input,
-                        fmt::format("-o {}: cannot write \"{}\" files; use .exr, .png, .jpg, .pfm, .hdr or "
-                                    ".film.exr",
-                                    out, extension));
+                        fmt::format("-o {}: cannot write \"{}\" files; use .exr, .png, .jpg, .pfm, .hdr{}",
+                                    out, extension, replay ? ", .film.exr, .svg or .json" : " or .film.exr"));
         check_target("-o", out);
     }
 }

@@ -24,8 +24,9 @@ std::string extension_of(std::string const& path);
 /// Throws Error(Io) when `file` could not be written in the end: no folder, no regular file, a name that is too long (a
 /// checkpoint also has names with suffixes).
 void check_target(std::string const& option, std::string const& file, bool checkpoint = false);
-/// The same for pictures and films, whose extension must be known.
-void check_outputs(std::vector<std::string> const& outputs);
+/// The same for pictures and films, whose extension must be known. `replay`: a path could be written as well, and the message
+/// says so.
+void check_outputs(std::vector<std::string> const& outputs, bool replay = false);
 /// Throws Error(Limit) for a picture that its format cannot hold.
 void check_output_size(std::vector<std::string> const& outputs, std::array<int, 4> crop);
 /// Throws Error(Input) when a file is written twice, or written and read. A film may take the place of one that it

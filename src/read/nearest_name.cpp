@@ -50,4 +50,15 @@ std::string did_you_mean(std::string_view word, std::vector<std::string> const& 
     return name.empty() ? std::string{} : " (did you mean \"" + shown(name) + "\"?)";
 }
 
+std::string quoted(std::vector<std::string> const& names) {
+    std::string list;
+    for (auto const& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    return list;
+}
+
+std::string which_to_use(std::string_view word, std::vector<std::string> const& candidates) {
+    auto const near = did_you_mean(word, candidates);
+    return near.empty() ? "; use one of " + quoted(candidates) : near;
+}
+
 }  // namespace nephroid

@@ -164,10 +164,8 @@ std::size_t Params::choice(std::string_view name, std::initializer_list<std::str
     if (!p) return otherwise;
     auto const found = std::find(choices.begin(), choices.end(), p->strings[0]);
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-    std::string list;
-    for (auto const c : choices) list += (list.empty() ? "\"" : ", \"") + std::string(c) + "\"";
     context_->fail(p->where, what_ + ": \"" + shown(p->strings[0]) + "\" is not a known \"" + shown(p->name) +
-                                 "\"; use one of " + list);
+                                 "\"; use one of " + quoted({choices.begin(), choices.end()}));
 }
 
 Vec3 Params::point3(std::string_view name, Vec3 otherwise) {

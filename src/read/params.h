@@ -124,5 +124,9 @@ class Params {
 std::string nearest_name(std::string_view word, std::vector<std::string> const& candidates);
 /// ` (did you mean "X"?)`, or nothing.
 std::string did_you_mean(std::string_view word, std::vector<std::string> const& candidates);
+/// The same, or where none is near `; use one of "a", "b"`.
+std::string which_to_use(std::string_view word, std::vector<std::string> const& candidates);
+/// `"a", "b"`
+std::string quoted(std::vector<std::string> const& names);
 
 }  // namespace nephroid

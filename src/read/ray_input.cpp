@@ -92,7 +92,7 @@ void RayInput::block(std::string_view what, std::initializer_list<RayAttribute> 
             std::vector<std::string> names;
             for (auto const& a : attributes) names.emplace_back(a.name);
             fail("unknown attribute \"" + shown(name, 40) + "\" of " + std::string(what) +
-                 did_you_mean(name, names));
+                 which_to_use(name, names));
         }
         auto const index = static_cast<std::size_t>(found - attributes.begin());
         auto const twice = std::string(what) + ": \"" + std::string(found->name) + "\" is given twice";

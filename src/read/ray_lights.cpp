@@ -138,16 +138,16 @@ void RayLights::parallelogram(Vec3 position, Vec3 colour, Vec3 u, Vec3 v, Source
 }
 
 /// What the colour is to be multiplied by for an intensity: pi times d^2 times the attenuation at the scene's centre. With the
-/// quadratic coefficient alone that is the same at every distance.
+/// quadratic coefficient alone that is the same at every distance at which those programs did not clamp it.
 float RayLights::intensity(Attenuated const& l, Bounds3 const& bounds) {
     auto const& context = in_.context();
-    if (l.constant == 0 && l.linear == 0 && l.quadratic > 0) return kPi / l.quadratic;
     auto const sphere = bounding_sphere(bounds);
     double d = double{length(l.position - sphere.centre)};
     // A light at the very centre: as it is at the edge.
     if (!(d > 1e-3 * double{sphere.radius})) d = double{sphere.radius};
     if (!(d > 0) || !std::isfinite(d)) d = 1;
     double const sum = double{l.constant} + d * (double{l.linear} + d * double{l.quadratic});
+    if (l.constant == 0 && l.linear == 0 && sum >= 1) return kPi / l.quadratic;
     double const share = sum > 1 ? 1 / sum : 1;  // those programs clamped it
     in_.context().note(l.where,
                        "light falls off with the square of the distance here: it is as bright as the "

@@ -113,6 +113,7 @@ std::vector<RayPiece> by_material(Polymesh const& m) {
 
 std::vector<RayPiece> RayShapes::mesh(std::string_view name, SharedPhong phong, SourceLocation where) {
     Polymesh m;
+    auto const parent = phong;
     auto const triples = [this](std::vector<Vec3>& out) {
         return [this, &out] {
             out.clear();
@@ -136,7 +137,7 @@ std::vector<RayPiece> RayShapes::mesh(std::string_view name, SharedPhong phong, 
                       [&] {
                           m.materials.clear();
                           in_.need('=');
-                          in_.list([&] { m.materials.push_back(materials_.read(in_, phong)); });
+                          in_.list([&] { m.materials.push_back(materials_.read(in_, parent)); });
                       }},
                      {"gennormals", {}, [&] {  // alone, or "= true"
                           m.generate_normals = !in_.take_if('=') || in_.boolean();

@@ -95,7 +95,7 @@ void RayReader::unknown(bool top) const {
     auto const word = in_.peek().text;
     auto const belongs = RayLights::is_light(word) || word == "camera";
     in_.fail(belongs ? std::string(word) + " must not stand inside a transform or group; move it out"
-                     : "unknown object \"" + shown(word, 40) + "\"" + did_you_mean(word, names));
+                     : "unknown object \"" + shown(word, 40) + "\"" + which_to_use(word, names));
 }
 
 void RayReader::top_level() {

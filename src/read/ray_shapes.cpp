@@ -15,10 +15,11 @@ std::vector<std::string> const& RayShapes::names() {
 }
 
 RayAttribute RayShapes::material(SharedPhong& phong) {
-    return {"material", {}, [this, &phong] {
-                in_.need('=');
-                phong = materials_.read(in_, phong);
-            }};
+    return {
+        "material", {}, [this, &phong, parent = phong] {  // given again, it does not begin as the one before
+            in_.need('=');
+            phong = materials_.read(in_, parent);
+        }};
 }
 
 RayAttribute RayShapes::name_attribute() {

@@ -1,19 +1,10 @@
 #include "path_trace.h"
 
-#include "scene/match.h"
+#include "scene/shape_name.h"
 
 namespace nephroid {
 
 namespace {
-
-char const* name_of(Shape const& shape) {
-    return match(
-        shape, [](TriangleMesh const&) { return "trianglemesh"; },
-        [](BilinearMesh const&) { return "bilinearmesh"; },
-        [](LoopSubdivision const&) { return "loopsubdiv"; }, [](Sphere const&) { return "sphere"; },
-        [](Cylinder const&) { return "cylinder"; }, [](Disk const&) { return "disk"; },
-        [](Box const&) { return "box"; }, [](Quad const&) { return "quad"; });
-}
 
 ScatterKind kind_of(Vertex const& v, BsdfSample const& s) {
     if (s.delta) return ScatterKind::Specular;
@@ -41,22 +32,13 @@ void PathTrace::ends(SeenLight const& seen, Vec3 value, float filter_weight) {
     for (LightMet& m : record_.met) m.rgb = rgb(m.contribution);
 }
 
-PathVertex& PathTrace::vertex(std::uint32_t id) {
-    std::size_t i = record_.vertices.size() - 1;
-    while (i > 0 && record_.vertices[i].id != id) --i;
-    return record_.vertices[i];
-}
-
 PathVertex& PathTrace::add(Walk const& walk) {
     PathVertex v;
     v.id = walk.vertex;
-    if (v.id > 0) {
-        bool const tree = std::holds_alternative<WhittedIntegrator>(job_->settings().integrator);
-        std::uint32_t const before = !tree ? v.id - 1 : v.id / 2 > 1 ? v.id / 2 : 0;
-        v.parent = static_cast<int>(&vertex(before) - record_.vertices.data());
-    }
+    v.parent = at_;
     v.direction = walk.ray.d;
     v.beta = walk.beta;
+    at_ = static_cast<int>(record_.vertices.size());
     return record_.vertices.emplace_back(v);
 }
 
@@ -94,37 +76,36 @@ void PathTrace::left(Walk const& walk) {
 }
 
 void PathTrace::arrived(Walk const& walk, Vertex const& v) {
-    PathVertex& here = add(walk);
-    Vec3 const before =
-        here.parent < 0 ? record_.ray.o : record_.vertices[static_cast<std::size_t>(here.parent)].p;
+    Vec3 const before = at_ < 0 ? record_.ray.o : here().p;
+    PathVertex& reached = add(walk);
     Object const& object = job_->world().object_at(v.hit);
-    here.p = v.hit.s.p;
-    here.distance = length(here.p - before);
-    here.ng = v.hit.s.ng;
-    here.ns = v.hit.s.ns;
-    here.material = v.material;
-    here.object = object.where;
-    here.shape = name_of(object.shape);
-    here.end = PathEnd::NoScattering;
+    reached.p = v.hit.s.p;
+    reached.distance = length(reached.p - before);
+    reached.ng = v.hit.s.ng;
+    reached.ns = v.hit.s.ns;
+    reached.material = v.material;
+    reached.object = object.where;
+    reached.shape = name_of(object.shape);
+    reached.end = PathEnd::NoScattering;
 }
 
-void PathTrace::scatters(Walk const& walk, Vertex const& v) {
-    PathVertex& here = vertex(walk.vertex);
-    here.ns = v.hit.s.ns;
-    here.specular = v.is.delta;
-    here.near_specular = v.is.near_specular;
-    here.end = PathEnd::Length;
+void PathTrace::scatters(Vertex const& v) {
+    PathVertex& from = here();
+    from.ns = v.hit.s.ns;
+    from.specular = v.is.delta;
+    from.near_specular = v.is.near_specular;
+    from.end = PathEnd::Length;
 }
 
 LightTried& PathTrace::try_light(Walk const& walk, LightSample const& light) {
     LightTried t;
-    t.vertex = static_cast<std::uint32_t>(&vertex(walk.vertex) - record_.vertices.data());
+    t.vertex = static_cast<std::uint32_t>(at_);
     t.p = light.p;
     t.wi = light.wi;
     t.at_infinity = light.at_infinity;
     t.delta = light.delta;
     t.pdf = light.pdf;
-    t.path_class = walk.path_class.ends_after(record_.vertices[t.vertex].near_specular);
+    t.path_class = walk.path_class.ends_after(here().near_specular);
     return record_.tried.emplace_back(t);
 }
 
@@ -141,31 +122,29 @@ void PathTrace::lit(Walk const& walk, LightSample const& light, Spectrum direct,
 
 void PathTrace::scattered(PathContext const& c, Walk const& walk, Vertex const& v, BsdfSample const& s,
                           Vec3 wi) {
-    PathVertex& here = vertex(walk.vertex);
-    Scattering& made = here.scatterings.emplace_back();
+    PathVertex& from = here();
+    Scattering& made = from.scatterings.emplace_back();
     made.kind = kind_of(v, s);
     made.transmitted = s.transmitted;
     made.hero_only = s.keep_hero;
     made.wi = wi;
     made.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
     made.beta = walk.beta;
-    here.end = walk.beta.is_black()    ? PathEnd::Absorbed
+    from.end = walk.beta.is_black()    ? PathEnd::Absorbed
                : walk.beta.is_finite() ? PathEnd::GoesOn
                                        : PathEnd::NotANumber;
 }
 
-void PathTrace::absorbed(Walk const& walk) {
-    PathVertex& here = vertex(walk.vertex);
-    if (here.scatterings.empty()) here.end = PathEnd::Absorbed;
+void PathTrace::absorbed() {
+    if (here().scatterings.empty()) here().end = PathEnd::Absorbed;
 }
 
-void PathTrace::chance(std::uint32_t id, float survival, bool died) {
-    PathVertex& here = vertex(id);
-    Scattering& s = here.scatterings.back();
+void PathTrace::chance(float survival, bool died) {
+    Scattering& s = here().scatterings.back();
     s.survival = survival;
     s.survived = !died;
     if (died)
-        here.end = PathEnd::Roulette;
+        here().end = PathEnd::Roulette;
     else
         s.beta /= survival;
 }

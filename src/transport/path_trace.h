@@ -21,26 +21,30 @@ class PathTrace {
     [[gnu::cold]] void left(Walk const& walk);
     [[gnu::cold]] void arrived(Walk const& walk, Vertex const& v);
     // At the vertex.
-    [[gnu::cold]] void scatters(Walk const& walk, Vertex const& v);
+    [[gnu::cold]] void scatters(Vertex const& v);
     [[gnu::cold]] void occluded(Walk const& walk, LightSample const& light);
     /// `direct` is without the walk's beta.
     [[gnu::cold]] void lit(Walk const& walk, LightSample const& light, Spectrum direct, float weight,
                            float passing);
     /// No direction came out.
-    [[gnu::cold]] void absorbed(Walk const& walk);
+    [[gnu::cold]] void absorbed();
     [[gnu::cold]] void scattered(PathContext const& c, Walk const& walk, Vertex const& v, BsdfSample const& s,
                                  Vec3 wi);
-    [[gnu::cold]] void chance(std::uint32_t vertex, float survival, bool died);
+    [[gnu::cold]] void chance(float survival, bool died);
+
+    /// Where the path is: the index of the vertex that was reached last, or gone back to for the next branch of a tree.
+    [[nodiscard]] int at() const { return at_; }
+    [[gnu::cold]] void back_to(int vertex) { at_ = vertex; }
 
   private:
-    /// The vertex of that number: the last one that has it.
-    PathVertex& vertex(std::uint32_t id);
-    /// One more, which is where the walk's ray goes.
+    PathVertex& here() { return record_.vertices[static_cast<std::size_t>(at_)]; }
+    /// One more, which is where the walk's ray goes from here.
     PathVertex& add(Walk const& walk);
     LightTried& try_light(Walk const& walk, LightSample const& light);
 
     PathRecord& record_;
     RenderJob const* job_ = nullptr;
+    int at_ = -1;  // the camera
 };
 
 }  // namespace nephroid

@@ -4,7 +4,6 @@
 #include "path_trace.h"
 #include "photon_maps.h"
 #include "scene/match.h"
-#include "spectrum/color.h"
 
 #include <string>
 
@@ -39,11 +38,6 @@ PathRecord replay(RenderJob const& job, std::uint64_t pass, Vec2i pixel) {
     RayStats stats;
     add_camera_sample(job, {}, pixel.x, pixel.y, pass, pass, nearest, film, stats, &trace);
     return record;
-}
-
-Vec3 beta_rgb(RenderJob const& job, Spectrum beta, Wavelengths const& lambda) {
-    if (lambda.is_rgb()) return {beta[0], beta[1], beta[2]};
-    return to_linear_srgb(beta * job.world().assets().neutral_illuminant().sample(lambda), lambda);
 }
 
 }  // namespace nephroid

@@ -176,7 +176,7 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     v.wo_local = v.frame.to_local(-walk.ray.d);
     v.is = traits(v.bsdf);
     if (v.is.hero_only) keep_hero(walk);
-    if (c.trace) c.trace->scatters(walk, v);
+    if (c.trace) c.trace->scatters(v);
     return true;
 }
 
@@ -244,7 +244,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
         u = c.sampler.next_2d();
     }
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, walk.mode, c.hemisphere);
-    if (!s && c.trace) c.trace->absorbed(walk);
+    if (!s && c.trace) c.trace->absorbed();
     return s && follow(c, walk, v, *s);
 }
 
@@ -260,7 +260,7 @@ bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {
     }
     c.sampler.at(dimension::of(vertex, dimension::kRoulette));
     bool const dies = c.sampler.next_1d() >= q;
-    if (c.trace) c.trace->chance(vertex, q, dies);
+    if (c.trace) c.trace->chance(q, dies);
     if (dies) return false;
     walk.beta /= q;
     return true;

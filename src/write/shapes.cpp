@@ -2,6 +2,7 @@
 #include "writer.h"
 
 #include "scene/match.h"
+#include "scene/shape_name.h"
 
 #include <bit>
 #include <cstring>
@@ -59,60 +60,54 @@ std::string Writer::shape(Shape const& shape, std::string const& more, SourceLoc
     auto const phi = [&](float phi_max) {
         if (phi_max < kTwoPi) p.angle("phimax", phi_max, !portable_);
     };
-    char const* const type = match(
+    char const* type = name_of(shape);
+    match(
         shape,
         [&](TriangleMesh const& m) {
             if (m.p.size() > kMostInline || m.triangles.size() > kMostInline) {
                 p.string("filename", ply_file(m));
-                return "plymesh";
+                type = "plymesh";
+                return;
             }
             p.integers("indices", &m.triangles[0].x, 3 * m.triangles.size());
             points(m);
-            return "trianglemesh";
         },
         [&](BilinearMesh const& m) {
             p.integers("indices", m.patches[0].data(), 4 * m.patches.size());
             points(m);
-            return "bilinearmesh";
         },
         [&](LoopSubdivision const& m) {
             if (m.levels > 10) refuse(where, "a subdivision above 10 levels");
             p.integer("levels", m.levels, 3);
             p.integers("indices", &m.triangles[0].x, 3 * m.triangles.size());
             points(m);
-            return "loopsubdiv";
         },
         [&](Sphere const& s) {
             p.number("radius", s.radius);
             p.number("zmin", s.z_min, -s.radius);
             p.number("zmax", s.z_max, s.radius);
             phi(s.phi_max);
-            return "sphere";
         },
         [&](Cylinder const& s) {
             p.number("radius", s.radius);
             p.number("zmin", s.z_min, -1);
             p.number("zmax", s.z_max, 1);
             phi(s.phi_max);
-            return "cylinder";
         },
         [&](Disk const& s) {
             p.number("height", s.height, 0);
             p.number("radius", s.radius);
             p.number("innerradius", s.inner_radius, 0);
             phi(s.phi_max);
-            return "disk";
         },
         [&](Box const& s) {
             p.point("lo", s.lo);
             p.point("hi", s.hi);
-            return "box";
         },
         [&](Quad const& s) {
             p.point("origin", s.origin);
             p.vector("u", s.edge_u);
             p.vector("v", s.edge_v);
-            return "quad";
         });
     return "  Shape \"" + std::string(type) + '"' + more + p.text() + '\n';
 }

@@ -101,8 +101,8 @@ bad "leave --checkpoint out" --replay 0,1,1 --checkpoint c.film.exr
 bad "leave --passes out" --replay 0,1,1 --passes 0:1
 bad "leave the other out" --replay 0,1,1 --show-photons -o a.png
 bad "is -o p.svg as well" --replay 0,1,1 -o p.svg -o p.svg
-bad 'cannot write ".svg" files' -o p.svg
-bad 'cannot write ".txt" files' --replay 0,1,1 -o p.txt
+bad 'cannot write ".svg" files; use .exr, .png, .jpg, .pfm, .hdr or .film.exr' -o p.svg
+bad 'cannot write ".txt" files; use .exr, .png, .jpg, .pfm, .hdr, .film.exr, .svg or .json' --replay 0,1,1 -o p.txt
 run 4 render room.pbrt --replay 0,1,1 -o nowhere/p.svg
 run 4 render missing.pbrt --replay 0,1,1
 run 0 render --help

@@ -113,6 +113,27 @@ TEST_CASE("emissive: an area light, on both sides where the shape is open") {
     CHECK(scene.world().objects[2].light->two_sided);
 }
 
+TEST_CASE("a shape's second material begins as the default in force, not as its first") {
+    auto const at = [](Scene const& scene, std::size_t object) {
+        return rgb(scene, kind<DiffuseMaterial>(scene, scene.world().objects[object].material).reflectance);
+    };
+    std::string const twice = " material = { diffuse = (0,1,0) } material = { emissive = (1,1,1) } ";
+    auto const scene = valid_ray("sphere {" + twice + "} cone {" + twice +
+                                 "}\nmaterial = { diffuse = (0,0,1) } sphere {" + twice + "}");
+    CHECK(at(scene, 0) == Vec3{0});
+    CHECK(at(scene, 1) == Vec3{0});
+    CHECK(at(scene, 2) == Vec3{0, 0, 1});
+    CHECK(contains(notes(scene), "t.ray:2: sphere: \"material\" is given twice: the last one counts"));
+    // Materials of points, whatever the order.
+    std::string const one = " material = { diffuse = (0,1,0) } ";
+    std::string const all = " materials = ({ emissive = (1,1,1) }, {}, {}) ";
+    std::string const mesh = "polymesh { points = ((0,0,0),(1,0,0),(0,1,0)) faces = ((0,1,2)) ";
+    auto const meshes =
+        valid_ray("material = { diffuse = (0,0,1) }\n" + mesh + one + all + "}" + mesh + all + one + "}");
+    CHECK(at(meshes, 0) == Vec3{0, 0, 1});
+    CHECK(at(meshes, 1) == Vec3{0, 0, 1});
+}
+
 TEST_CASE("materials: defaults, what they pass on, names") {
     auto const scene = valid_ray(
         "material { name = gray; diffuse = (0.5,0.5,0.5) }\nsphere {}\nmaterial = { name = red; diffuse = "
@@ -178,6 +199,17 @@ TEST_CASE("lights: intensities") {
         "sphere {} point_light { position = (0,0,2); color = (1,1,1); "
         "constant_attenuation_coeff = 0.25; quadratic_attenuation_coeff = 0 }");
     CHECK(as<PointLight>(bright.lights[0].kind).scale == doctest::Approx(double{kPi} * 4));
+    // Also where the quadratic coefficient is the only one, at distances at which it would make them so.
+    auto const quadratic = [](std::string const& coefficient) {
+        return valid_ray("sphere {} point_light { position = (0,0,4); color = (1,1,1); " + coefficient +
+                         " }");
+    };
+    auto const near = quadratic("quadratic_attenuation_coeff = 0.001");
+    CHECK(as<PointLight>(near.lights[0].kind).scale == doctest::Approx(double{kPi} * 16));
+    CHECK(contains(notes(near), "t.ray:2: light falls off with the square of the distance here"));
+    auto const far = quadratic("quadratic_attenuation_coeff = 0.0625");
+    CHECK(as<PointLight>(far.lights[0].kind).scale == doctest::Approx(double{kPi} * 16));
+    CHECK_FALSE(contains(notes(far), "light falls off"));
     // Black is no sky; and what differs from it in colour is said.
     CHECK(valid_ray("ambient_light { color = (0,0,0) }").lights.empty());
     std::string const odd = "sphere { material = { diffuse = (1,1,1) } }";

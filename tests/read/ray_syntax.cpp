@@ -56,13 +56,18 @@ TEST_CASE("what is wrong, and on which line") {
     check("{ sphere {}\n", "2: this { is not closed: add a }");
     check("sphere", "2: \"{\" should be here, not the end of the file");
     check("sphere {\n)", "3: an attribute of sphere, or \"}\", should be here, not \")\"");
-    check("sphere {\n radius = 3 }", "3: unknown attribute \"radius\" of sphere");
+    check("sphere {\n radius = 3 }",
+          "3: unknown attribute \"radius\" of sphere; use one of \"material\", \"name\"");
     check("cone {\n hieght = 3 }", "3: unknown attribute \"hieght\" of cone (did you mean \"height\"?)");
     check("cone { capped = 3 }", "2: true or false should be here, not \"3\"");
     check("box { name = 3 }", "2: a name, or a string in quotes, should be here, not \"3\"");
     check("box { name 3 }", "2: \"=\" should be here, not \"3\"");
     // Objects
     check("spere {}", "2: unknown object \"spere\" (did you mean \"sphere\"?)");
+    check("fork {}",
+          "2: unknown object \"fork\"; use one of \"sphere\", \"box\", \"square\", \"cylinder\", \"cone\", "
+          "\"polymesh\", \"trimesh\", \"translate\", \"rotate\", \"scale\", \"transform\", \"camera\", "
+          "\"ambient_light\", \"directional_light\", \"point_light\", \"area_light\", \"material\"");
     check("\n3", "3: a camera, a light, a material or geometry should be here, not \"3\"");
     check("scale(2, camera {})", "2: camera must not stand inside a transform or group; move it out");
     check("{ point_light {} }", "2: point_light must not stand inside a transform or group; move it out");

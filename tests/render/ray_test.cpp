@@ -62,6 +62,13 @@ TEST_CASE("a light of colour c shows a diffuse square that faces it as kd c") {
           {0.05f, 0.1f, 0.15f});
 }
 
+TEST_CASE("a light's attenuation makes nothing brighter than its colour") {
+    std::string const light =
+        "point_light { position = (0,0,4); color = (1,1,1); quadratic_attenuation_coeff = ";
+    std::string const weak = light + "0.001 } ";
+    check(seen(kSquare + weak + weak + light + "1 }", 4096), Vec3{0.2f, 0.4f, 0.6f} * (2 + 1.0f / 16), 1e-2);
+}
+
 TEST_CASE("an area light's ball lights as the point light; a parallelogram by its solid angle") {
     check(seen(kSquare + "area_light { position = (3,0,4); color = (1,1,1); light_radius = 0.3 }", 1024),
           Vec3{0.2f, 0.4f, 0.6f} * (0.8f / 25), 2e-3);

@@ -6,9 +6,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <tuple>
 
 namespace nephroid::test {
@@ -77,11 +79,12 @@ std::vector<Kind> kinds() {
 }  // namespace
 
 TEST_CASE("a replayed path is what the film got, to the bit") {
-    for (auto const& [scene_name, make] : {std::pair{"room", +[] { return room_of_everything(false); }},
-                                           {"room under a sky", +[] { return room_of_everything(true); }},
-                                           {"bodies", +[] { return bodies(); }}})
+    for (auto const& [name, make] : {std::pair{"room", +[] { return room_of_everything(false); }},
+                                     {"room under a sky", +[] { return room_of_everything(true); }},
+                                     {"bodies", +[] { return bodies(); }}})
         for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral})
             for (Kind const& kind : kinds()) {
+                char const* const scene_name = name;  // clang 14 captures no structured bindings
                 CAPTURE(scene_name);
                 CAPTURE(kind.name);
                 World const world = compile(make());
@@ -218,6 +221,71 @@ TEST_CASE("the vertices of a replayed path hang together") {
         CHECK(ends[static_cast<std::size_t>(end)] > 0);
 }
 
+namespace {
+
+/// Each vertex was reached by what its parent scattered, in that order, and has numbers of its own. The vertices with two children.
+int check_tree(PathRecord const& r) {
+    std::vector<std::size_t> children(r.vertices.size());
+    std::set<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < r.vertices.size(); ++i) {
+        PathVertex const& v = r.vertices[i];
+        CHECK(numbers.insert(v.id).second);
+        CHECK((v.id == 0) == (i == 0));
+        if (i == 0) continue;
+        REQUIRE(v.parent >= 0);
+        auto const parent = static_cast<std::size_t>(v.parent);
+        REQUIRE(parent < i);
+        PathVertex const& from = r.vertices[parent];
+        REQUIRE(children[parent] < from.scatterings.size());
+        CHECK(same_bits(from.scatterings[children[parent]++].wi, v.direction));
+        if (v.surface) CHECK(v.distance == doctest::Approx(double{length(v.p - from.p)}));
+    }
+    return static_cast<int>(std::count(children.begin(), children.end(), 2));
+}
+
+RenderJob deep_job(World const& world, int depth) {
+    Settings settings;
+    settings.color = ColorMode::Rgb;
+    settings.film.resolution = {8, 6};
+    settings.integrator = WhittedIntegrator{.max_depth = depth};
+    return {world, settings};
+}
+
+}  // namespace
+
+TEST_CASE("between two mirrors, however deep, each vertex comes from the one before") {
+    Scene s;
+    MaterialId const glass = mirror(s, 1);
+    add(s, Quad{{-500, 1, -500}, {1000, 0, 0}, {0, 0, 1000}}, glass);
+    add(s, Quad{{-500, -1, -500}, {1000, 0, 0}, {0, 0, 1000}}, glass);
+    look(s, {0, 0, 0}, {0, 1, 0});
+    World const world = compile(std::move(s));
+    RenderJob const job = deep_job(world, 60);
+    for (int x = 0; x < 8; ++x) {
+        PathRecord const r = replay(job, 0, {x, 3});
+        REQUIRE(r.vertices.size() == 61);
+        for (std::size_t i = 0; i < r.vertices.size(); ++i) {
+            CHECK(r.vertices[i].parent == static_cast<int>(i) - 1);
+            // Down to where a heap's numbers end, those of a heap.
+            if (i > 0 && i < 28) CHECK(r.vertices[i].id == 1u << i);
+        }
+        CHECK(check_tree(r) == 0);
+    }
+}
+
+TEST_CASE("a deep tree's branches come from where they branched") {
+    // A ball that mirrors most of what is in it: the tree is one chain inside, which lets some out at each vertex.
+    Scene s;
+    add(s, Sphere{1}, nephroid::test::glass(s, ConstantSpd{10}));
+    s.lights.push_back(sky(1));
+    look(s, {0, -4, 0}, {0, 0, 0});
+    World const world = compile(std::move(s));
+    RenderJob const job = deep_job(world, 60);
+    PathRecord const r = replay(job, 0, {4, 3});
+    REQUIRE(r.vertices.size() > 100);
+    CHECK(check_tree(r) == 60);
+}
+
 TEST_CASE("Whitted's tree is replayed as a tree") {
     World const world = compile(room_of_everything(false));
     Settings settings;
@@ -229,18 +297,12 @@ TEST_CASE("Whitted's tree is replayed as a tree") {
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
             PathRecord const r = replay(job, 0, {x, y});
-            std::vector<std::size_t> children(r.vertices.size());
-            for (std::size_t i = 1; i < r.vertices.size(); ++i) {
-                PathVertex const& v = r.vertices[i];
-                REQUIRE(v.parent >= 0);
-                auto const parent = static_cast<std::size_t>(v.parent);
-                REQUIRE(parent < i);
-                PathVertex const& from = r.vertices[parent];
+            branched += check_tree(r);
+            for (PathVertex const& v : r.vertices) {
+                if (v.parent < 0) continue;
+                PathVertex const& from = r.vertices[static_cast<std::size_t>(v.parent)];
                 CHECK(v.id / 2 == (from.id == 0 ? 1 : from.id));
-                REQUIRE(children[parent] < from.scatterings.size());
-                CHECK(same_bits(from.scatterings[children[parent]++].wi, v.direction));
             }
-            for (std::size_t i = 0; i < r.vertices.size(); ++i) branched += children[i] == 2;
         }
     CHECK(branched > 50);
 }

@@ -41,8 +41,9 @@ enum class PathEnd : std::uint8_t {
 };
 
 struct PathVertex {
-    std::uint32_t id =
-        0;  // vertices count from 0; in Whitted's tree the children of node i are 2i and 2i + 1, and the root is 0
+    /// Names its random numbers. Vertices count from 0; in Whitted's tree the children of node i are 2i and 2i + 1 down to depth
+    /// 27 and hashes of these below, and the root is 0.
+    std::uint32_t id = 0;
     int parent = -1;             // index of the vertex before; -1: the camera
     bool surface = true;         // false where the ray left the scene
     Vec3 direction{0, 0, 1};     // unit, of the ray that got here
@@ -113,8 +114,5 @@ struct PathRecord {
 /// rgb += double(weight) * double(value).
 /// Throws Error(Input) for a pixel outside the picture and for integrators without such paths.
 PathRecord replay(RenderJob const& job, std::uint64_t pass, Vec2i pixel);
-
-/// Throughput as a colour, linear sRGB: the lanes in rgb mode, else white light (D65, luminance 1) that has come along.
-Vec3 beta_rgb(RenderJob const& job, Spectrum beta, Wavelengths const& lambda);
 
 }  // namespace nephroid
