@@ -11,7 +11,7 @@ fail() {
     echo "FAILED: $*"
     bad=1
 }
-headings() { grep -E '^#+ ' "$1"; }
+headings() { awk '/^```/ { code = !code } !code && /^#+ /' "$1"; } # not comments of pbrt text
 pictures() { grep -oE '!\[[^]]*\]\([^)]*\)' "$1" | sed 's/.*](//; s/)$//' | LC_ALL=C sort; } # not links, which go elsewhere
 
 whole() { # whole FOLDER: every picture that the page shows is there, and no other
