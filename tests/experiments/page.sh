@@ -11,7 +11,7 @@ fail() {
     echo "FAILED: $*"
     bad=1
 }
-headings() { grep -E '^#+ ' "$1"; }
+headings() { awk '/^```/ { code = !code } !code && /^#+ /' "$1"; } # not comments of pbrt text
 pictures() { grep -oE '!\[[^]]*\]\([^)]*\)' "$1" | sed 's/.*](//; s/)$//' | LC_ALL=C sort; } # not links, which go elsewhere
 
 whole() { # whole FOLDER: every picture that the page shows is there, and no other
@@ -34,9 +34,9 @@ whole() { # whole FOLDER: every picture that the page shows is there, and no oth
 cp -r "$work/a" "$work/b"
 "$program" --quick "$work/b" 2>/dev/null &
 killed=$!
-for ((i = 0; i < 600; i++)); do # until it has made something
+for ((i = 0; i < 3000; i++)); do # until it has made something
     [[ -z $(ls -A "$work/b/$name.new" 2>/dev/null) ]] || break
-    sleep 0.1
+    sleep 0.02
 done
 kill -KILL "$killed" 2>/dev/null || fail "the run was over before it could be killed"
 wait "$killed" 2>/dev/null || true
