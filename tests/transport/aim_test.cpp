@@ -378,8 +378,8 @@ TEST_CASE("aim: what casts, and the balls around it") {
     add(group, box_mesh({2, 2, 2}, {3, 4, 2.5f}, false), m);
     add(group, Quad{}, m);
     GroupId const id = placed.add(group);
-    placed.world().instances.push_back({id, rows(scale(2, 1, 1) * rotation(50, 1, 1, 0)), {}});
-    placed.world().instances.push_back({id, rows(translate(20, 0, 0)), {}});
+    placed.world().instances.push_back({id, rows_of(scale(2, 1, 1) * rotation(50, 1, 1, 0)), {}});
+    placed.world().instances.push_back({id, rows_of(translate(20, 0, 0)), {}});
     placed.add(point_light({0, 0, 30}, 1));
     World const world = compile(placed);
     for (std::size_t const most : {std::size_t{1}, std::size_t{4}, std::size_t{32}}) {

@@ -34,7 +34,7 @@ Scene before_light(Shape const& shape, TextureId (*alpha)(Scene&), bool instance
         s.groups.push_back(g);
         Instance i;
         i.group = GroupId{static_cast<std::uint32_t>(s.groups.size() - 1)};
-        i.to_parent = rows(translate(0, 0, 0.5));
+        i.to_parent = rows_of(translate(0, 0, 0.5));
         s.world().instances.push_back(i);
     } else {
         add(s, shape, black).alpha = a;

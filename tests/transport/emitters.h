@@ -186,12 +186,12 @@ inline void place(Scene& s, EmittingShape const& e, Placement const& where, int 
     o.to_group = turned(e, nesting == 1 ? Mat4{} : where.inner);
     o.light = light;
     if (nesting == 1) {
-        s.world().instances.push_back({leaf, rows(where.all()), {}});
+        s.world().instances.push_back({leaf, rows_of(where.all()), {}});
         return;
     }
     GroupId const branch = s.add(Group{});
-    s.groups[branch.value].instances.push_back({leaf, rows(where.middle), {}});
-    s.world().instances.push_back({branch, rows(where.outer), {}});
+    s.groups[branch.value].instances.push_back({leaf, rows_of(where.middle), {}});
+    s.world().instances.push_back({branch, rows_of(where.outer), {}});
 }
 
 }  // namespace nephroid::test

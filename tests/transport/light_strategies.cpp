@@ -159,7 +159,7 @@ TEST_CASE("light strategies: an instance that moves its emitter back from afar d
         Object& o = add(scene.groups[group.value], shape);
         o.to_group = translate(3000, 0, 0) * rotation(180, 1, 0, 0);
         o.light = white(1);
-        scene.world().instances.push_back({group, rows(translate(-3000, 0, 10)), {}});
+        scene.world().instances.push_back({group, rows_of(translate(-3000, 0, 10)), {}});
         World const world = compile(scene);
         double const expected =
             std::holds_alternative<Sphere>(shape) ? kPiD / 100

@@ -259,7 +259,7 @@ TEST_CASE("a hundred thousand lights, instances, alpha that varies, few spectral
     drop.to_group = translate(0, 0, 0.5);
     s.groups[tree.value].objects.push_back(drop);
     for (int i = 0; i < 5; ++i)
-        s.world().instances.push_back({.group = tree, .to_parent = rows(translate(-2 + i, 0.3 * i, 0.6))});
+        s.world().instances.push_back({.group = tree, .to_parent = rows_of(translate(-2 + i, 0.3 * i, 0.6))});
     Scene many = s;
     Random random(1);
     int const lights = 100'000 / kSanitizerShare;

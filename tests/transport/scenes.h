@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "scene/affine_rows.h"
 #include "scene/scene.h"
 
 #include <cmath>
@@ -68,12 +69,6 @@ inline Mat4 shear(double k) {
     Mat4 m;
     m.m[0][1] = k;
     return m;
-}
-inline AffineRows rows(Mat4 const& m) {
-    AffineRows r;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) r[i][j] = static_cast<float>(m.m[i][j]);
-    return r;
 }
 
 /// Two triangles, p0 p1 p2 p3 in order around; the normal is (p1 - p0) x (p2 - p0).

@@ -276,7 +276,7 @@ TEST_CASE("shooting: one emitter is one source, however many triangles and appea
     add(lamp, mesh).light = white(1);
     lamp.objects.back().light->where = {0, 7};
     GroupId const id = scene.add(lamp);
-    for (float x : {-1.0f, 1.0f}) scene.world().instances.push_back({id, rows(translate(x, 0, 0)), {}});
+    for (float x : {-1.0f, 1.0f}) scene.world().instances.push_back({id, rows_of(translate(x, 0, 0)), {}});
     add(scene, box_mesh({-2, -2, -2}, {2, 2, 2}, true), diffuse(scene, 0));
     add_sphere(scene, {0, 0, 1}, 0.1f).light = white(1);
     scene.add(point_light({0, 1, 0}, 0.1f));

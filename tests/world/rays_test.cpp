@@ -176,7 +176,7 @@ TEST_CASE("no light shades itself, wherever it is seen from") {
                 if (instanced) {
                     GroupId const g = s.add(Group{.name = "g"});
                     s.groups[g.value].objects.push_back(lamp);
-                    s.world().instances.push_back({.group = g, .to_parent = rows(shift)});
+                    s.world().instances.push_back({.group = g, .to_parent = rows_of(shift)});
                 } else {
                     lamp.to_group = shift * lamp.to_group;
                     s.world().objects.push_back(lamp);

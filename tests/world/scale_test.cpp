@@ -74,7 +74,7 @@ Scene room(double k) {
     for (int i = 0; i < 5; ++i)
         s.world().instances.push_back(
             {.group = tree,
-             .to_parent = rows(place(translate(-2 + i, 2.5, 0.2) * *rotate(17 * i, 0, 0, 1)))});
+             .to_parent = rows_of(place(translate(-2 + i, 2.5, 0.2) * *rotate(17 * i, 0, 0, 1)))});
     s.add(Light{PointLight{.scale = 20 * f * f, .from = Vec3{-3, -3, 4} * f}, Mat4{}, {}});
     s.add(Light{SpotLight{.scale = 30 * f * f, .from = Vec3{3, -3, 5} * f, .to = Vec3{0, 0, 0}}, Mat4{}, {}});
     s.add(Light{DistantLight{.scale = 0.5f, .from = {1, 1, 3}, .to = {0, 0, 0}}, Mat4{}, {}});

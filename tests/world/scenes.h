@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/shape.h"
+#include "scene/affine_rows.h"
 #include "scene/scene.h"
 #include "statistics.h"
 #include "world/world.h"
@@ -126,19 +127,6 @@ inline AreaLight emission(float radiance) {
     return {.radiance = RgbIlluminantSpd{{1, 1, 1}}, .scale = radiance};
 }
 
-inline AffineRows rows(Mat4 const& m) {
-    AffineRows r{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) r[i][j] = static_cast<float>(m.m[i][j]);
-    return r;
-}
-inline Mat4 matrix(AffineRows const& r) {
-    Mat4 m;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j) m.m[i][j] = static_cast<double>(r[i][j]);
-    return m;
-}
-
 /// One object, alone in the world.
 inline Scene alone(Shape shape, Mat4 const& to_group = {}) {
     Scene s;
@@ -152,7 +140,7 @@ inline Scene alone_instanced(Shape shape, Mat4 const& to_group, Mat4 const& to_w
     s.files = {"alone.pbrt"};
     GroupId const g = s.add(Group{.name = "g"});
     s.groups[g.value].objects.push_back(object(std::move(shape), diffuse(s), to_group));
-    s.world().instances.push_back({.group = g, .to_parent = rows(to_world)});
+    s.world().instances.push_back({.group = g, .to_parent = rows_of(to_world)});
     return s;
 }
 

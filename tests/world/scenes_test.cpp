@@ -133,7 +133,9 @@ TEST_CASE("three levels of instances are the same as the scene written out by ha
                                    object(Sphere{0.6f, -0.6f, 0.6f}, diffuse(s), translate(1.5, 0, 0)),
                                    object(Box{}, diffuse(s), translate(0, 0, -2) * *rotate(30, 1, 0, 0))};
     };
-    auto const instance = [](GroupId g, Mat4 const& m) { return Instance{.group = g, .to_parent = rows(m)}; };
+    auto const instance = [](GroupId g, Mat4 const& m) {
+        return Instance{.group = g, .to_parent = rows_of(m)};
+    };
 
     Scene nested;
     Scene flat;
@@ -153,7 +155,7 @@ TEST_CASE("three levels of instances are the same as the scene written out by ha
     for (Mat4 const& o : outer)
         for (Mat4 const& m : middle)
             for (Mat4 const& i : inner) {
-                Mat4 const all = matrix(rows(o)) * matrix(rows(m)) * matrix(rows(i));
+                Mat4 const all = matrix_of(rows_of(o)) * matrix_of(rows_of(m)) * matrix_of(rows_of(i));
                 flat.world().instances.push_back(instance(f1, all));
                 for (Object x : by_hand) {
                     x.to_group = all * x.to_group;
@@ -214,7 +216,7 @@ TEST_CASE("an instance costs its record and Embree's, and nothing of the group")
         for (int x = 0; x < side; ++x)
             for (int y = 0; y < side; ++y)
                 s.world().instances.push_back(
-                    {.group = g, .to_parent = rows(translate(x, y, 0) * *rotate(x + y, 0, 0, 1))});
+                    {.group = g, .to_parent = rows_of(translate(x, y, 0) * *rotate(x + y, 0, 0, 1))});
         return s;
     };
     WorldMemory const one = compile(scene_of(1)).memory();
