@@ -41,6 +41,18 @@ inline void add_grid(Mesh& mesh, int columns, int rows, std::function<void(doubl
         }
 }
 
+// Normals of points by their triangles, weighed by area. Where a mesh is coarser than what it shows, they fit the triangles better
+// than the surface's own: a normal that faces away from who looks at its triangle is rendered black.
+inline void average_normals(Mesh& mesh) {
+    mesh.n.assign(mesh.p.size(), Vec3(0));
+    for (auto const& t : mesh.triangles) {
+        auto const at = [&](int k) { return static_cast<std::size_t>(t[static_cast<std::size_t>(k)]); };
+        Vec3 const face = glm::cross(mesh.p[at(1)] - mesh.p[at(0)], mesh.p[at(2)] - mesh.p[at(0)]);
+        for (int k = 0; k < 3; ++k) mesh.n[at(k)] += face;
+    }
+    for (Vec3& n : mesh.n) n = glm::normalize(n);
+}
+
 inline float rounded(double x) { return static_cast<float>(std::round(x * 65536) / 65536) + 0.0f; }
 
 inline void little_endian(std::string& out, std::uint32_t bits) {

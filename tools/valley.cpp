@@ -85,12 +85,11 @@ Mesh valley_ground() {
         // Rows are closer together near the camera.
         double const x = mix(kLeft, kRight, s), y = mix(kNear, kFar, 0.45 * t + 0.55 * t * t),
                      z = height(x, y);
-        Vec2 const g = slope(x, y, 0.5);
         mesh.p.emplace_back(x, y, z);
-        mesh.n.push_back(glm::normalize(Vec3(-g.x, -g.y, 1)));
         double const above = (z + 3.5 * hills(x / 7, y / 7, 3, 71) - 17) / 16;
         mesh.uv.emplace_back(0.5, std::clamp(above, 0.0, 1.0));
     });
+    average_normals(mesh);
     return mesh;
 }
 
