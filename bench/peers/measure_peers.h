@@ -1,0 +1,46 @@
+// What is measured of each renderer in each scene.
+#pragma once
+
+#include "renderers.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nephroid::peers {
+
+struct Plan {
+    double seconds = 4;     // of a render that is measured
+    int repetitions = 5;    // interleaved: each renderer once, then each again
+    double reference = 10;  // of a reference, in samples of such a render
+};
+struct TimedError {
+    double seconds = 0, error = 0;
+};
+struct Result {
+    std::string renderer;
+    bool path_tracer = true;
+    std::string reference;  // whose picture errors are against: "own" or "path"
+    double mean = 0;        // of the reference, over the channels
+    int samples = 0;
+    std::vector<double> seconds, process_seconds, errors;  // a repetition each; relMSE
+    std::vector<TimedError> curve;                         // at 1/16, 1/4, 1 and 4 times the samples
+    std::vector<double> seconds64;                         // of 64 samples, where that was asked for
+    std::string failure;                                   // why there is nothing else
+    Image picture;                                         // of the first repetition
+};
+struct SceneResult {
+    std::string scene, about;
+    Vec2i resolution{0};
+    std::size_t triangles = 0, balls = 0;
+    std::vector<Result> results;
+};
+
+double median(std::vector<double> v);
+
+/// `equal_samples`: 64 samples of a pixel are timed too.
+SceneResult measure_scene(std::string const& name, PeerScene const& peer,
+                          std::vector<Renderer const*> const& renderers, Plan const& plan, bool equal_samples,
+                          std::filesystem::path const& scratch);
+
+}  // namespace nephroid::peers

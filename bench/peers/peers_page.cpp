@@ -1,0 +1,258 @@
+#include "peers_page.h"
+
+#include "image/write.h"
+#include "page.h"
+#include "plot.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+namespace nephroid::peers {
+
+namespace {
+
+using namespace experiment;
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown processor";
+}
+std::string load() {
+    std::ifstream file("/proc/loadavg");
+    std::string one;
+    file >> one;
+    return one;
+}
+
+double efficiency(Result const& r) {
+    std::vector<double> each;
+    for (std::size_t i = 0; i < r.seconds.size(); ++i)
+        if (r.errors[i] > 0) each.push_back(1 / (r.errors[i] * r.seconds[i]));
+    return median(each);
+}
+std::string with_range(std::vector<double> const& v) {
+    auto const [lo, hi] = std::minmax_element(v.begin(), v.end());
+    return fmt::format("{} ({} to {})", number(median(v)), number(*lo), number(*hi));
+}
+Result const* find(SceneResult const& s, std::string const& name) {
+    for (Result const& r : s.results)
+        if (r.renderer == name && r.failure.empty()) return &r;
+    return nullptr;
+}
+SceneResult const* find(std::vector<SceneResult> const& scenes, std::string const& name) {
+    for (SceneResult const& s : scenes)
+        if (s.scene == name) return &s;
+    return nullptr;
+}
+
+constexpr char const* kPath = "nephroid path, rgb";
+constexpr char const* kSpectral = "nephroid path, spectral";
+constexpr char const* kSppm = "nephroid sppm, rgb";
+constexpr char const* kCycles = "Cycles";
+
+/// Pair by pair of one round, so that slow rounds are slow for both.
+std::optional<std::vector<double>> ratios(std::vector<double> const& a, std::vector<double> const& b) {
+    if (a.empty() || a.size() != b.size()) return std::nullopt;
+    std::vector<double> r;
+    for (std::size_t i = 0; i < a.size(); ++i) r.push_back(a[i] / b[i]);
+    return r;
+}
+
+class Targets {
+  public:
+    /// `least`: the ratio has to be at least that; else at most.
+    void add(std::string const& what, std::optional<std::vector<double>> const& r, double bound, bool least) {
+        if (!r) {
+            rows_.push_back(
+                {what, fmt::format("{} {}", least ? "≥" : "≤", number(bound)), "not measured", ""});
+            return;
+        }
+        double const m = median(*r);
+        rows_.push_back({what, fmt::format("{} {}", least ? "≥" : "≤", number(bound)), with_range(*r),
+                         (least ? m >= bound : m <= bound) ? "met" : "not met"});
+    }
+    [[nodiscard]] std::vector<std::vector<std::string>> const& rows() const { return rows_; }
+
+  private:
+    std::vector<std::vector<std::string>> rows_;
+};
+
+std::optional<std::vector<double>> efficiency_ratio(Result const* a, Result const* b) {
+    if (!a || !b || !(efficiency(*b) > 0)) return std::nullopt;
+    return std::vector<double>{efficiency(*a) / efficiency(*b)};
+}
+
+void targets(Page& page, std::vector<SceneResult> const& scenes) {
+    Targets t;
+    for (char const* name : {"cornell", "cornell_glass"}) {
+        SceneResult const* s = find(scenes, name);
+        if (!s) continue;
+        Result const *us = find(*s, kPath), *them = find(*s, kCycles), *spectral = find(*s, kSpectral);
+        if (us && them)
+            t.add(fmt::format("{}: time of Cycles / ours, 64 samples", name),
+                  ratios(them->seconds64, us->seconds64), 2.8, true);
+        if (us && spectral)
+            t.add(fmt::format("{}: time of spectral / rgb, 64 samples", name),
+                  ratios(spectral->seconds64, us->seconds64), 1.25, false);
+    }
+    if (SceneResult const* s = find(scenes, "ball")) {
+        Result const *us = find(*s, kPath), *them = find(*s, kCycles);
+        if (us && them) {
+            std::vector<double> a, b;
+            for (double const x : us->seconds) a.push_back(x / us->samples);
+            for (double const x : them->seconds) b.push_back(x / them->samples);
+            t.add("ball: time of Cycles / ours, a sample", ratios(b, a), 2, true);
+        }
+    }
+    for (SceneResult const& s : scenes)
+        if (Result const* us = find(s, kPath), *them = find(s, kCycles); us && them)
+            t.add(fmt::format("{}: efficiency of ours / Cycles'", s.scene), efficiency_ratio(us, them), 1,
+                  true);
+    for (char const* name : {"cornell_glass", "pool", "cup"})
+        if (SceneResult const* s = find(scenes, name)) {
+            Result const* sppm = find(*s, kSppm);
+            if (!sppm) continue;
+            t.add(fmt::format("{}: efficiency of sppm / our path", name),
+                  efficiency_ratio(sppm, find(*s, kPath)), 50, true);
+            t.add(fmt::format("{}: efficiency of sppm / Cycles", name),
+                  efficiency_ratio(sppm, find(*s, kCycles)), 50, true);
+        }
+    page.section("Targets");
+    if (t.rows().empty())
+        page.text("None of this run's scenes and renderers has one.");
+    else
+        page.table({"ratio", "target", "measured: median (range)", ""}, t.rows());
+    page.text(
+        "Ratios of times are taken round by round, each round a render of either; those of efficiencies are "
+        "of the medians.");
+}
+
+void means(Page& page, std::vector<SceneResult> const& scenes) {
+    std::vector<std::vector<std::string>> rows;
+    for (SceneResult const& s : scenes) {
+        Result const* us = find(s, kPath);
+        if (!us) continue;
+        for (Result const& r : s.results) {
+            if (!r.failure.empty() || &r == us) continue;
+            double const off = r.mean / us->mean - 1;
+            rows.push_back({s.scene, r.renderer, number(r.mean, 4),
+                            fmt::format("{}{:.2f}%", off < 0 ? "−" : "+", 100 * std::abs(off)),
+                            std::abs(off) < 0.05 ? "agrees"
+                            : r.path_tracer      ? "**differs**"
+                                                 : "differs"});
+        }
+    }
+    page.section("Is it the same picture?");
+    page.text(
+        "Means of the references, beside that of our path tracer's; within 5% they agree. Lost caustics, "
+        "which a path tracer "
+        "does not find in the time of a reference, make a mean too small.");
+    if (!rows.empty()) page.table({"scene", "renderer", "mean", "off by", ""}, rows);
+}
+
+void show(Page& page, SceneResult const& s) {
+    page.section(s.scene);
+    page.text(fmt::format("{} x {} pixels, {} triangles, {} balls.", s.resolution.x, s.resolution.y,
+                          s.triangles, s.balls));
+    std::vector<std::vector<std::string>> rows;
+    std::vector<Line> lines;
+    for (Result const& r : s.results) {
+        if (!r.failure.empty()) {
+            rows.push_back({r.renderer, "failed", "", "", "", "", ""});
+            continue;
+        }
+        bool const counts = r.renderer != "POV-Ray";
+        double const paths = static_cast<double>(r.samples) * s.resolution.x * s.resolution.y;
+        rows.push_back(
+            {r.renderer, counts ? std::to_string(r.samples) : "–", with_range(r.seconds),
+             number(median(r.process_seconds)), counts ? number(paths / median(r.seconds) / 1e6) : "–",
+             fmt::format("{}{}", with_range(r.errors), r.reference == "own" ? "" : " (against path)"),
+             counts ? number(efficiency(r)) : "–"});
+        Line line{r.renderer, {}, {}, ""};
+        for (TimedError const& e : r.curve)
+            if (e.seconds > 0 && e.error > 0) line.x.push_back(e.seconds), line.y.push_back(e.error);
+        if (line.x.size() > 1) lines.push_back(std::move(line));
+    }
+    page.table(
+        {"renderer", "samples a pixel", "render, s", "process, s", "M samples/s", "relMSE", "1 / (relMSE s)"},
+        rows);
+    if (!lines.empty()) {
+        std::string const name = s.scene + ".svg";
+        page.save(name, line_plot(s.scene, {"render, s", true, {}}, {"relMSE", true, {}}, lines));
+        page.image(name, "Error over time in " + s.scene);
+    }
+    // Side by side, as bytes.
+    std::vector<Result const*> shown;
+    for (Result const& r : s.results)
+        if (r.failure.empty() && !r.picture.empty() && r.renderer != kSpectral) shown.push_back(&r);
+    if (shown.empty()) return;
+    int const w = s.resolution.x / 2, h = s.resolution.y / 2;
+    Image sheet(PixelFormat::Float, w * static_cast<int>(shown.size()), h, {"R", "G", "B"});
+    std::string names;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        names += (i ? " | " : "") + shown[i]->renderer;
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x)
+                for (int k = 0; k < 3; ++k) {
+                    float sum = 0;
+                    for (int b = 0; b < 4; ++b)
+                        sum += shown[i]->picture.get(2 * x + b % 2, 2 * y + b / 2, k) / 4;
+                    sheet.set(x + w * static_cast<int>(i), y, k, sum);
+                }
+    }
+    write_jpeg(page.file(s.scene + ".jpg"), sheet, 88);
+    page.image(s.scene + ".jpg", names);
+    page.text("From the left: " + names + ", of the table's samples.");
+}
+
+}  // namespace
+
+void write_peers_page(std::filesystem::path const& folder, std::vector<SceneResult> const& scenes,
+                      std::vector<Renderer> const& renderers, Plan const& plan, int threads, bool quick) {
+    Page page(folder, "peers", "Beside other renderers");
+    page.text(
+        "    ./dev peers        measures all of this again and writes this page; `./dev peers --help` lists "
+        "what can be chosen");
+    auto const now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    page.text(fmt::format(
+        "{:%Y-%m-%d}, {}, {} threads, load {} at the end.{}", fmt::gmtime(now), processor(), threads, load(),
+        quick ? " **A quick run: short renders and small references; good for ratios of 20% and more.**"
+              : ""));
+    std::vector<std::string> versions;
+    for (Renderer const& r : renderers) versions.push_back(r.name + ": " + r.version);
+    page.list(versions);
+    page.text(
+        fmt::format("Every renderer has the same triangles, balls, rgb reflectances, radiances, pinhole, "
+                    "pixels and bounces, box filter, and as many "
+                    "threads. Samples of a pixel are chosen so that a render takes {} s; then come {} "
+                    "rounds, in each of which every renderer renders "
+                    "once, under a new seed. Errors are relMSE against a picture of the renderer's *own*, of "
+                    "{} times the samples, so that what "
+                    "renderers mean differently does not count; a path tracer's error is divided by 1 + n / "
+                    "n_reference, the part of it that is its "
+                    "reference's. For `sppm` the reference is our path tracer's where the noise of that is "
+                    "below a tenth of the error, else "
+                    "its own, which hides what bias the two share. Render times are what a renderer says "
+                    "itself, without reading and "
+                    "building (Cycles: the call of its renderer, which includes the building of its trees); "
+                    "process times are from start to exit. "
+                    "Medians, with the range. "
+                    "POV-Ray is no path tracer: its time is that of a final picture of its manual's "
+                    "settings, its whole process, and its "
+                    "error is against its own picture of four times the counts; samples it has none.",
+                    number(plan.seconds), plan.repetitions, number(plan.reference)));
+    targets(page, scenes);
+    means(page, scenes);
+    for (SceneResult const& s : scenes) show(page, s);
+    page.write();
+}
+
+}  // namespace nephroid::peers
