@@ -125,7 +125,9 @@ int run(int argc, char** argv) {
     }
     if (keep.empty()) std::filesystem::remove_all(scratch);
     std::fprintf(stderr, "peers: the page is %s/peers.md\n", folder.c_str());
-    return 0;
+    auto const wrong = complaints(results);
+    for (std::string const& c : wrong) std::fprintf(stderr, "peers: %s\n", c.c_str());
+    return wrong.empty() ? 0 : 1;
 }
 
 }  // namespace

@@ -56,6 +56,25 @@ double error_of(Runner const& r, Image const& image, int samples) {
 
 }  // namespace
 
+Result const* find(SceneResult const& scene, std::string const& renderer) {
+    for (Result const& r : scene.results)
+        if (r.renderer == renderer && r.failure.empty()) return &r;
+    return nullptr;
+}
+
+std::vector<std::string> complaints(std::vector<SceneResult> const& scenes) {
+    std::vector<std::string> found;
+    for (SceneResult const& s : scenes) {
+        Result const* const us = find(s, kPath);
+        for (Result const& r : s.results)
+            if (!r.failure.empty())
+                found.push_back(s.scene + ": " + r.renderer + " failed");
+            else if (us && r.path_tracer && !(std::abs(r.mean / us->mean - 1) < kSameMean))
+                found.push_back(s.scene + ": the mean of " + r.renderer + " is not ours: another picture");
+    }
+    return found;
+}
+
 double median(std::vector<double> v) {
     if (v.empty()) return 0;
     std::sort(v.begin(), v.end());

@@ -36,6 +36,15 @@ struct SceneResult {
     std::vector<Result> results;
 };
 
+/// Pictures whose means differ by more are not of the same thing.
+inline constexpr double kSameMean = 0.05;
+/// Of our path tracer: that of which the others' means have to be.
+inline constexpr char const* kPath = "nephroid path, rgb";
+/// That renderer's, if it did not fail.
+Result const* find(SceneResult const& scene, std::string const& renderer);
+/// What a run cannot be trusted for: renderers that failed, and path tracers whose means are not ours.
+std::vector<std::string> complaints(std::vector<SceneResult> const& scenes);
+
 double median(std::vector<double> v);
 
 /// `equal_samples`: 64 samples of a pixel are timed too.

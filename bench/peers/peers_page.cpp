@@ -42,18 +42,12 @@ std::string with_range(std::vector<double> const& v) {
     auto const [lo, hi] = std::minmax_element(v.begin(), v.end());
     return fmt::format("{} ({} to {})", number(median(v)), number(*lo), number(*hi));
 }
-Result const* find(SceneResult const& s, std::string const& name) {
-    for (Result const& r : s.results)
-        if (r.renderer == name && r.failure.empty()) return &r;
-    return nullptr;
-}
 SceneResult const* find(std::vector<SceneResult> const& scenes, std::string const& name) {
     for (SceneResult const& s : scenes)
         if (s.scene == name) return &s;
     return nullptr;
 }
 
-constexpr char const* kPath = "nephroid path, rgb";
 constexpr char const* kSpectral = "nephroid path, spectral";
 constexpr char const* kSppm = "nephroid sppm, rgb";
 constexpr char const* kCycles = "Cycles";
@@ -145,9 +139,9 @@ void means(Page& page, std::vector<SceneResult> const& scenes) {
             double const off = r.mean / us->mean - 1;
             rows.push_back({s.scene, r.renderer, number(r.mean, 4),
                             fmt::format("{}{:.2f}%", off < 0 ? "−" : "+", 100 * std::abs(off)),
-                            std::abs(off) < 0.05 ? "agrees"
-                            : r.path_tracer      ? "**differs**"
-                                                 : "differs"});
+                            std::abs(off) < kSameMean ? "agrees"
+                            : r.path_tracer           ? "**differs**"
+                                                      : "differs"});
         }
     }
     page.section("Is it the same picture?");

@@ -129,41 +129,39 @@ Renderer povray(Programs const& p) {
     return {"povray", "POV-Ray", "POV-Ray" + after(said, "POV-Ray"), false, prepare};
 }
 
-Renderer pbrt(Programs const& p) {
-    auto prepare = [p](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
+/// A path tracer whose program the user names: `write` makes its scene for a render, `options` are what its program is called
+/// with before that, and `picture` is what it leaves. None says what the render alone took.
+Renderer given(char const* key, char const* name, std::string const& program,
+               fs::path (*write)(PeerScene const&, WriteJob const&),
+               std::function<std::string(RenderJob const&)> const& options, char const* picture) {
+    auto prepare = [=](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
         return [=](RenderJob const& job) {
-            fs::path const scene = write_pbrt_scene(peer, {folder, job.samples, job.seed});
-            auto const f = start(fmt::format("{} --nthreads {} --seed {} --outfile out.exr {}",
-                                             quoted(p.pbrt), p.threads, job.seed, quoted(scene.string())),
-                                 folder);
-            return Rendered{read_image(folder / "out.exr"), f.seconds, f.seconds};
+            fs::path const scene = write(peer, {folder, job.samples, job.seed});
+            auto const f =
+                start(fmt::format("{} {} {}", quoted(program), options(job), quoted(scene.string())), folder);
+            return Rendered{read_image(folder / picture), f.seconds, f.seconds};
         };
     };
-    return {"pbrt", "pbrt-v4", "as given by --pbrt", true, prepare};
+    return {key, name, fmt::format("as given by --{}", key), true, prepare};
+}
+Renderer pbrt(Programs const& p) {
+    return given(
+        "pbrt", "pbrt-v4", p.pbrt, write_pbrt_scene,
+        [n = p.threads](RenderJob const& job) {
+            return fmt::format("--nthreads {} --seed {} --outfile out.exr", n, job.seed);
+        },
+        "out.exr");
 }
 Renderer mitsuba(Programs const& p) {
-    auto prepare = [p](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
-        return [=](RenderJob const& job) {
-            fs::path const scene = write_mitsuba(peer, {folder, job.samples, job.seed});
-            auto const f = start(fmt::format("{} -m llvm_ad_rgb -t {} -o out.exr {}", quoted(p.mitsuba),
-                                             p.threads, quoted(scene.string())),
-                                 folder);
-            return Rendered{read_image(folder / "out.exr"), f.seconds, f.seconds};
-        };
-    };
-    return {"mitsuba", "Mitsuba 3 llvm", "as given by --mitsuba", true, prepare};
+    return given(
+        "mitsuba", "Mitsuba 3 llvm", p.mitsuba, write_mitsuba,
+        [n = p.threads](RenderJob const&) { return fmt::format("-m llvm_ad_rgb -t {} -o out.exr", n); },
+        "out.exr");
 }
 Renderer tungsten(Programs const& p) {
-    auto prepare = [p](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
-        return [=](RenderJob const& job) {
-            fs::path const scene = write_tungsten(peer, {folder, job.samples, job.seed});
-            auto const f = start(fmt::format("{} -t {} -s {} {}", quoted(p.tungsten), p.threads, job.seed,
-                                             quoted(scene.string())),
-                                 folder);
-            return Rendered{read_image(folder / "out.pfm"), f.seconds, f.seconds};
-        };
-    };
-    return {"tungsten", "Tungsten", "as given by --tungsten", true, prepare};
+    return given(
+        "tungsten", "Tungsten", p.tungsten, write_tungsten,
+        [n = p.threads](RenderJob const& job) { return fmt::format("-t {} -s {}", n, job.seed); }, "out.pfm");
 }
 
 }  // namespace
