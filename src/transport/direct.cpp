@@ -21,9 +21,7 @@ SeenLight radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, Ao
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
         if (!v.is.delta) {
-            if (sample_lights)
-                seen[walk.path_class.ends_after(v.is.near_specular)] +=
-                    walk.beta * sample_direct(c, walk, v, mis);
+            if (sample_lights) add_direct(c, walk, v, mis, seen);
             scattered = true;  // one more segment, to meet emission by scattering
         }
         if (!scatter(c, walk, v)) break;

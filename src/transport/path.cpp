@@ -18,9 +18,7 @@ SeenLight radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovS
         // A path of max_depth bounces has max_depth + 1 segments; emission at its end is in already.
         if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
         // Next-event estimation: one more segment, aimed at a light.
-        if (p.sample_lights && !v.is.delta)
-            seen[walk.path_class.ends_after(v.is.near_specular)] +=
-                walk.beta * sample_direct(c, walk, v, p.sample_bsdf_mis);
+        if (p.sample_lights && !v.is.delta) add_direct(c, walk, v, p.sample_bsdf_mis, seen);
         // The path goes on by scattering, and ends by chance.
         if (!scatter(c, walk, v) || !survives(c, walk, p.roulette)) break;
     }

@@ -59,9 +59,7 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters) return;
-        if (!v.is.delta)
-            seen[walk.path_class.ends_after(v.is.near_specular)] +=
-                walk.beta * sample_direct(c, walk, v, true);
+        if (!v.is.delta) add_direct(c, walk, v, true, seen);
         if (!v.is.near_specular) break;
         if (walk.vertex >= most || !scatter(c, walk, v)) return;
     }

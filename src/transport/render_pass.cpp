@@ -1,6 +1,6 @@
 #include "transport/render_pass.h"
 
-#include "camera_sample.h"
+#include "camera_batch.h"
 #include "light_path_image.h"
 #include "photon_maps.h"
 #include "photon_plan.h"
@@ -96,14 +96,14 @@ std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const
             }
         return dropped;
     }
-    NearestPhotons nearest;
+    CameraBatch batch(job, work, film, stats);
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x)
             for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass)
                 for (std::uint64_t k = pass * samples; k < (pass + 1) * samples; ++k)
-                    if (!add_camera_sample(job, work, x, y, pass, k, nearest, film, stats, nullptr))
-                        ++dropped;
-    return dropped;
+                    batch.add(x, y, pass, k);
+    batch.run();
+    return batch.dropped();
 }
 
 void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats) {

@@ -1,6 +1,6 @@
 #include "transport/replay.h"
 
-#include "camera_sample.h"
+#include "camera_batch.h"
 #include "path_trace.h"
 #include "photon_maps.h"
 #include "scene/match.h"
@@ -34,9 +34,11 @@ PathRecord replay(RenderJob const& job, std::uint64_t pass, Vec2i pixel) {
     record.pixel = pixel;
     PathTrace trace(record);
     Film film(size, {pixel.x, pixel.x + 1, pixel.y, pixel.y + 1}, false, {});
-    NearestPhotons nearest;
     RayStats stats;
-    add_camera_sample(job, {}, pixel.x, pixel.y, pass, pass, nearest, film, stats, &trace);
+    PassWork const none;
+    CameraBatch batch(job, none, film, stats);
+    batch.add(pixel.x, pixel.y, pass, pass);
+    batch.run(&trace);
     return record;
 }
 

@@ -18,9 +18,7 @@ SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovS
         bool const scatters = prepare(c, walk, v);
         if (aov) record_first_hit(c, walk, scatters, v, aov);
         if (!scatters || walk.vertex >= most) break;
-        if (!v.is.delta)
-            seen[walk.path_class.ends_after(v.is.near_specular)] +=
-                walk.beta * sample_direct(c, walk, v, true);
+        if (!v.is.delta) add_direct(c, walk, v, true, seen);
         if (!v.is.near_specular) {
             PhotonMaps const& maps = *c.photons;
             Estimate const caustic = from_caustics(c, walk, v, most);

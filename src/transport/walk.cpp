@@ -2,6 +2,7 @@
 
 #include "model/shading_normal.h"
 #include "path_trace.h"
+#include "shadow_queue.h"
 #include "spectrum/color.h"
 
 #include <algorithm>
@@ -99,7 +100,9 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
     Vec3 const origin = walk.ray.o;  // before any surface was passed: portals are seen from here
     double mix = -1;                 // what decides at mixes; not drawn yet
     for (int i = 0; i < kMaxInterfaces; ++i) {
-        bool const found = c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit);
+        bool const found = walk.met ? c.world.surface(*walk.met, hit)
+                                    : c.world.intersect(walk.ray, kInfinity, kind, c.stats, hit);
+        walk.met = nullptr;
         if (!walk.interiors.empty()) walk.beta *= transmittance(c, walk.interiors, found ? hit.t : kInfinity);
         if (!found) {
             if (c.trace) c.trace->left(walk);
@@ -180,32 +183,66 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     return true;
 }
 
-Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
+namespace {
+
+/// A light sample at a vertex, and what it brings there.
+struct DirectLight {
+    LightSample from;
+    float weight = 1;  // by MIS
+    Spectrum light;    // f |cos| Li weight / pdf, unless something is in the way; without beta
+};
+
+/// False where the sample brings nothing.
+bool choose_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, DirectLight& direct) {
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
     double const u_choose = c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
     c.sampler.at(dimension::of(walk.vertex, dimension::kLight));
     Vec2 const u = c.sampler.next_2d();
     auto const light = c.world.sample_light(receiver_of(v), c.lights, u_choose, u, c.lambda);
-    if (!light || light->radiance.is_black()) return {};
+    if (!light || light->radiance.is_black()) return false;
     Vec3 const wi_local = v.frame.to_local(light->wi);
     Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
-    if (f.is_black()) return {};
-    float const passing = c.world.transmittance(v.hit, *light, c.stats);
-    if (passing == 0.0f) {
-        if (c.trace) c.trace->occluded(walk, *light);
-        return {};
-    }
+    if (f.is_black()) return false;
     // A delta light cannot be found by scattering: its weight is 1.
-    float const w = light->delta || !mis
-                        ? 1.0f
-                        : power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
-    Spectrum direct = f * light->radiance * (abs_cos_theta(wi_local) * w * passing / light->pdf);
+    if (mis && !light->delta)
+        direct.weight = power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
+    direct.light = f * light->radiance * (abs_cos_theta(wi_local) * direct.weight / light->pdf);
     if (c.world.encloses()) {
         float const distance = light->at_infinity ? kInfinity : length(light->p - v.hit.s.p);
-        direct = direct * transmittance(c, beyond(c, walk, v, light->wi), distance);
+        direct.light = direct.light * transmittance(c, beyond(c, walk, v, light->wi), distance);
     }
-    if (c.trace) c.trace->lit(walk, *light, direct, w, passing);
-    return direct;
+    direct.from = *light;
+    return true;
+}
+
+/// … with what is in the way.
+Spectrum arriving(PathContext& c, Walk const& walk, Vertex const& v, DirectLight const& direct) {
+    float const passing = c.world.transmittance(v.hit, direct.from, c.stats);
+    Spectrum const light = direct.light * passing;
+    if (c.trace && passing > 0.0f) c.trace->lit(walk, direct.from, light, direct.weight, passing);
+    if (c.trace && passing == 0.0f) c.trace->occluded(walk, direct.from);
+    return light;
+}
+
+}  // namespace
+
+Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
+    DirectLight direct;
+    if (!choose_direct(c, walk, v, mis, direct)) return {};
+    return arriving(c, walk, v, direct);
+}
+
+void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, SeenLight& seen) {
+    LightClass const as = walk.path_class.ends_after(v.is.near_specular);
+    DirectLight direct;
+    if (!choose_direct(c, walk, v, mis, direct)) return;
+    if (!c.shadows) {
+        seen[as] += walk.beta * arriving(c, walk, v, direct);
+    } else if (c.trace || c.world.passes_partly()) {
+        c.shadows->arrive(as, walk.beta * arriving(c, walk, v, direct));
+    } else {
+        c.shadows->wait(as, walk.beta * direct.light, v.hit, direct.from, walk.vertex);
+    }
 }
 
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {

@@ -43,7 +43,8 @@ inline std::uint32_t of(std::uint32_t vertex, std::uint32_t which) {
 
 struct PhotonMaps;
 class NearestPhotons;
-class PathTrace;  // path_trace.h
+class PathTrace;    // path_trace.h
+class ShadowQueue;  // shadow_queue.h
 
 /// What a walk needs from outside; one per camera sample or light path.
 struct PathContext {
@@ -58,6 +59,8 @@ struct PathContext {
     NearestPhotons* nearest = nullptr;    // room for a query
     bool tainted = false;                 // a throughput was not a number: the sample does not count
     PathTrace* trace = nullptr;           // writes down what happens, where somebody asked for it
+    RawHit const* camera_hit = nullptr;   // what the camera's ray meets, where that is known
+    ShadowQueue* shadows = nullptr;       // where sampled light may wait for its shadow ray
 
     /// The same for a branch of the path, which has numbers of its own, and is not written down.
     [[nodiscard]] PathContext with(PathSampler& other) const {
@@ -68,12 +71,13 @@ struct PathContext {
 /// State of the path between two vertices.
 struct Walk {
     Ray ray;
-    Spectrum beta;             // throughput so far
-    std::uint32_t vertex = 0;  // how many vertices came before the one this ray looks for
-    Receiver from;             // the last vertex that scattered, …
-    float pdf = 0;             // … the density of the direction it chose, …
-    bool specular = true;      // … or a delta (or the camera): then lights could not be sampled there
-    float eta_scale = 1;       // product of eta^2: radiance squeezed into glass is no reason to end a path
+    RawHit const* met = nullptr;  // what the ray meets, where that is known
+    Spectrum beta;                // throughput so far
+    std::uint32_t vertex = 0;     // how many vertices came before the one this ray looks for
+    Receiver from;                // the last vertex that scattered, …
+    float pdf = 0;                // … the density of the direction it chose, …
+    bool specular = true;         // … or a delta (or the camera): then lights could not be sampled there
+    float eta_scale = 1;          // product of eta^2: radiance squeezed into glass is no reason to end a path
     bool hero_only = false;
     Mode mode = Mode::Radiance;
     float cone = 0;    // distance travelled: the footprint grows with it …
@@ -84,6 +88,7 @@ struct Walk {
     static Walk from_camera(PathContext const& c, Ray const& ray) {
         Walk w;
         w.ray = ray;
+        w.met = c.camera_hit;
         // In rgb mode the fourth lane carries nothing.
         w.beta = c.lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
         if (c.world.encloses()) w.interiors = c.job.camera_interiors();
@@ -131,6 +136,9 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v);
 
 /// One light sampled from the vertex: f |cos| Li / pdf, weighed by MIS unless `mis` is off. Without beta.
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis);
+/// The same, times beta, for an end of a path that nothing is multiplied to any more: it may wait in c.shadows and be no part of
+/// `seen`.
+void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, SeenLight& seen);
 
 /// Chooses a direction and moves the walk on; false when the path ends.
 bool scatter(PathContext& c, Walk& walk, Vertex const& v);

@@ -31,8 +31,7 @@ SeenLight trace(WhittedIntegrator const& p, PathContext& c, Walk walk, int depth
     bool const scatters = prepare(c, walk, v);
     if (aov) record_first_hit(c, walk, scatters, v, aov);
     if (!scatters || depth >= p.max_depth) return seen;
-    if (!v.is.delta)
-        seen[walk.path_class.ends_after(v.is.near_specular)] += walk.beta * sample_direct(c, walk, v, false);
+    if (!v.is.delta) add_direct(c, walk, v, false, seen);
 
     DeltaBranches const branches = delta_branches(v.bsdf, v.wo_local, Mode::Radiance);
     int const here = c.trace ? c.trace->at() : 0;

@@ -12,10 +12,13 @@
 #define NEPHROID_EMBREE 3
 #endif
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace nephroid {
 
@@ -105,40 +108,102 @@ std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim
         });
 }
 
-/// For triangles that alpha cuts; Embree says the rest.
-void filter_callback(RTCFilterFunctionNArguments const* args) {
-    if (args->N != 1 || args->valid[0] != -1) return;
-    auto const& ray = *reinterpret_cast<RTCRay const*>(args->ray);
-    auto const& hit = *reinterpret_cast<RTCHit const*>(args->hit);
-    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    ShapeHit const at{static_cast<double>(ray.tfar), hit.u, hit.v, hit.primID};
-    if (!covers(g, hit.geomID, hit.instID[0], at, {}, {ray.dir_x, ray.dir_y, ray.dir_z})) args->valid[0] = 0;
+#if NEPHROID_EMBREE == 4
+using Context = RTCRayQueryContext;
+void begin(Context& context) { rtcInitRayQueryContext(&context); }
+#else
+using Context = RTCIntersectContext;
+void begin(Context& context) { rtcInitIntersectContext(&context); }
+#endif
+
+/// Which surface each ray of a packet has met so far: the nearest and, of several at one distance, that of the least (instance, geometry,
+/// primitive). Embree takes them in an order that depends on the rays beside it, and a picture must not. It also passes by boxes that
+/// begin a rounding behind what was met, so that it is told that everything is met a little later than it is.
+struct PacketContext : Context {
+    struct Met {
+        float t = kInfinity;
+        std::uint32_t instance = ~0u, geometry = ~0u, primitive = ~0u;
+    };
+    std::array<Met, kLanes> met;
+
+    static float told(float t) { return t * (1.0f + 0x1p-16f); }
+    /// Is this what the lane's ray meets, as far as is known? Then it is kept.
+    bool takes(std::size_t lane, Met const& hit) {
+        Met& m = met[lane];
+        bool const first =
+            hit.t < m.t || (hit.t == m.t && std::tie(hit.instance, hit.geometry, hit.primitive) <
+                                                std::tie(m.instance, m.geometry, m.primitive));
+        if (first) m = hit;
+        return first;
+    }
+};
+
+/// Of every triangle that a ray of a packet may meet.
+void packet_filter(RTCFilterFunctionNArguments const* args) {
+    auto& context = *static_cast<PacketContext*>(args->context);
+    unsigned const n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        float const t = RTCRayN_tfar(args->ray, n, i);
+        if (context.takes(i, {t, RTCHitN_instID(args->hit, n, i, 0), RTCHitN_geomID(args->hit, n, i),
+                              RTCHitN_primID(args->hit, n, i)}))
+            RTCRayN_tfar(args->ray, n, i) = PacketContext::told(t);
+        else
+            args->valid[i] = 0;
+    }
 }
 
-// Only single rays are traced, so N is 1 and the packet types are the single-ray types.
-void intersect_callback(RTCIntersectFunctionNArguments const* args) {
-    if (args->N != 1 || args->valid[0] != -1) return;
-    auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+/// For triangles that alpha cuts; Embree says the rest.
+void filter_callback(RTCFilterFunctionNArguments const* args) {
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    auto const hit = intersect_user(g, args->primID, args->geomID, args->context->instID[0], rayhit->ray);
-    if (!hit) return;
-    rayhit->ray.tfar = static_cast<float>(hit->t);
-    rayhit->hit.u = hit->u;
-    rayhit->hit.v = hit->v;
-    // Embree hands the normal on as it is: it carries the point in the shape's own space, which was found in double.
-    rayhit->hit.Ng_x = hit->p.x;
-    rayhit->hit.Ng_y = hit->p.y;
-    rayhit->hit.Ng_z = hit->p.z;
-    rayhit->hit.primID = hit->part;
-    rayhit->hit.geomID = args->geomID;
-    rayhit->hit.instID[0] = args->context->instID[0];
+    unsigned const n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        RTCRay const ray = rtcGetRayFromRayN(args->ray, n, i);
+        RTCHit const hit = rtcGetHitFromHitN(args->hit, n, i);
+        ShapeHit const at{static_cast<double>(ray.tfar), hit.u, hit.v, hit.primID};
+        if (!covers(g, hit.geomID, hit.instID[0], at, {}, {ray.dir_x, ray.dir_y, ray.dir_z}))
+            args->valid[i] = 0;
+    }
+}
+
+void intersect_callback(RTCIntersectFunctionNArguments const* args) {
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    unsigned const n = args->N;
+    RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, n);
+    RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, n);
+    bool const in_packet = n > 1;
+    std::uint32_t const instance = args->context->instID[0];
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        RTCRay const ray = rtcGetRayFromRayN(rays, n, i);
+        auto const hit = intersect_user(g, args->primID, args->geomID, instance, ray);
+        if (!hit) continue;
+        float const t = static_cast<float>(hit->t);
+        if (in_packet &&
+            !static_cast<PacketContext*>(args->context)->takes(i, {t, instance, args->geomID, hit->part}))
+            continue;
+        RTCRayN_tfar(rays, n, i) = in_packet ? PacketContext::told(t) : t;
+        RTCHitN_u(hits, n, i) = hit->u;
+        RTCHitN_v(hits, n, i) = hit->v;
+        // Embree hands the normal on as it is: it carries the point in the shape's own space, which was found in double.
+        RTCHitN_Ng_x(hits, n, i) = hit->p.x;
+        RTCHitN_Ng_y(hits, n, i) = hit->p.y;
+        RTCHitN_Ng_z(hits, n, i) = hit->p.z;
+        RTCHitN_primID(hits, n, i) = hit->part;
+        RTCHitN_geomID(hits, n, i) = args->geomID;
+        RTCHitN_instID(hits, n, i, 0) = instance;
+    }
 }
 void occluded_callback(RTCOccludedFunctionNArguments const* args) {
-    if (args->N != 1 || args->valid[0] != -1) return;
-    auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
-    if (intersect_user(g, args->primID, args->geomID, args->context->instID[0], *ray))
-        ray->tfar = -std::numeric_limits<float>::infinity();
+    unsigned const n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        RTCRay const ray = rtcGetRayFromRayN(args->ray, n, i);
+        if (intersect_user(g, args->primID, args->geomID, args->context->instID[0], ray))
+            RTCRayN_tfar(args->ray, n, i) = -kInfinity;
+    }
 }
 
 /// Group-space bounds of one primitive of an analytic shape, a little wider than computed: the shape is exact, its box rounds.
@@ -216,7 +281,12 @@ std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std
                                    std::size_t count) {
     RTCScene const scene = rtcNewScene(impl_->device);
     impl_->groups.push_back(scene);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+#if NEPHROID_EMBREE == 4
+    constexpr auto kFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+    constexpr auto kFilter = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilter));
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < count; ++i) {
         ObjectRecord const& record = records[first + i];
@@ -277,16 +347,37 @@ void RayCaster::finish(std::vector<InstanceRecord> const& instances,
 }
 
 namespace {
+// Not 0: a surface in a coordinate plane has no rounding error to be moved away from, and its own hit is at exactly 0.
+constexpr float kLeastT = std::numeric_limits<float>::min();
+
 void fill(RTCRay& r, Ray const& ray, float t_max, std::uint32_t mask) {
     r.org_x = ray.o.x, r.org_y = ray.o.y, r.org_z = ray.o.z;
     r.dir_x = ray.d.x, r.dir_y = ray.d.y, r.dir_z = ray.d.z;
-    // Not 0: a surface in a coordinate plane has no rounding error to be moved away from, and its own hit is at exactly 0.
-    r.tnear = std::numeric_limits<float>::min();
+    r.tnear = kLeastT;
     r.tfar = t_max;
     r.time = 0;
     r.mask = mask;
     r.id = 0;
     r.flags = 0;
+}
+
+struct alignas(32) Valid : std::array<int, kLanes> {};
+
+void fill(RTCRay8& r, RayPacket const& rays, LaneMask lanes, std::uint32_t mask, Valid& valid) {
+    auto const copy = [](float(&to)[kLanes], FloatLanes const& from) {
+        std::copy(from.begin(), from.end(), to);
+    };
+    copy(r.org_x, rays.o.x), copy(r.org_y, rays.o.y), copy(r.org_z, rays.o.z);
+    copy(r.dir_x, rays.d.x), copy(r.dir_y, rays.d.y), copy(r.dir_z, rays.d.z);
+    copy(r.tfar, rays.t_max);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
+        r.tnear[i] = kLeastT;
+        r.time[i] = 0;
+        r.mask[i] = mask;
+        r.id[i] = 0;
+        r.flags[i] = 0;
+    }
 }
 }  // namespace
 
@@ -298,19 +389,19 @@ bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t 
 #if NEPHROID_EMBREE == 4
     rtcIntersect1(impl_->groups.front(), &rh);
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Context context;
+    begin(context);
     rtcIntersect1(impl_->groups.front(), &context, &rh);
 #endif
-    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit.found = rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    if (!hit.found) return false;
     hit.t = rh.ray.tfar;
     hit.u = rh.hit.u;
     hit.v = rh.hit.v;
     hit.local = {rh.hit.Ng_x, rh.hit.Ng_y, rh.hit.Ng_z};
     hit.geometry = rh.hit.geomID;
     hit.primitive = rh.hit.primID;
-    hit.instance =
-        rh.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? kNoInstance : rh.hit.instID[0] - first_instance_;
+    hit.instance = instance_of(rh.hit.instID[0]);
     return true;
 }
 
@@ -320,11 +411,63 @@ bool RayCaster::any(Ray const& ray, float t_max) const {
 #if NEPHROID_EMBREE == 4
     rtcOccluded1(impl_->groups.front(), &r);
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Context context;
+    begin(context);
     rtcOccluded1(impl_->groups.front(), &context, &r);
 #endif
     return r.tfar < 0.0f;
+}
+
+void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit, kLanes>& hits) const {
+    RTCRayHit8 rh;
+    Valid valid;
+    fill(rh.ray, rays, lanes, kAll, valid);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        rh.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rh.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    PacketContext context;
+    begin(context);
+#if NEPHROID_EMBREE == 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_COHERENT |
+                                                    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.context = &context;
+    arguments.filter = packet_filter;
+    rtcIntersect8(valid.data(), impl_->groups.front(), &rh, &arguments);
+#else
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.filter = packet_filter;
+    rtcIntersect8(valid.data(), impl_->groups.front(), &context, &rh);
+#endif
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        RawHit& hit = hits[i];
+        hit.found = rh.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hit.t = context.met[i].t;
+        hit.u = rh.hit.u[i];
+        hit.v = rh.hit.v[i];
+        hit.local = {rh.hit.Ng_x[i], rh.hit.Ng_y[i], rh.hit.Ng_z[i]};
+        hit.geometry = rh.hit.geomID[i];
+        hit.primitive = rh.hit.primID[i];
+        hit.instance = instance_of(rh.hit.instID[0][i]);
+    }
+}
+
+LaneMask RayCaster::any(RayPacket const& rays, LaneMask lanes) const {
+    RTCRay8 r;
+    Valid valid;
+    fill(r, rays, lanes, seen(Passage::Solid), valid);
+#if NEPHROID_EMBREE == 4
+    rtcOccluded8(valid.data(), impl_->groups.front(), &r);
+#else
+    Context context;
+    begin(context);
+    rtcOccluded8(valid.data(), impl_->groups.front(), &context, &r);
+#endif
+    LaneMask met = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) met |= static_cast<LaneMask>(r.tfar[i] < 0.0f) << i;
+    return met & lanes;
 }
 
 Bounds3 RayCaster::bounds() const {

@@ -5,6 +5,7 @@
 #include "math/bounds.h"
 #include "model/assets.h"
 #include "records.h"
+#include "world/ray_packet.h"
 
 #include <cmath>
 #include <cstdint>
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace nephroid {
-
-/// What Embree says of a nearest hit, before any geometry is looked at.
-struct RawHit {
-    float t = 0, u = 0, v = 0;
-    Vec3 local{0, 0, 0};  // of an analytic shape: the point in its own space
-    std::uint32_t geometry = 0, primitive = 0, instance = kNoInstance;
-};
 
 class RayCaster {
   public:
@@ -43,14 +37,27 @@ class RayCaster {
     bool nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t sees = kAll) const;
     /// Is anything solid in the way?
     bool any(Ray const& ray, float t_max) const;
+
+    /// Of rays side by side that go much the same way: what each meets first. Of several surfaces at one distance it is the one of the
+    /// least (instance, geometry, primitive), so that a ray meets the same whatever is beside it.
+    void nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit, kLanes>& hits) const;
+    /// The lanes in whose way is anything solid.
+    [[nodiscard]] LaneMask any(RayPacket const& rays, LaneMask lanes) const;
     /// False for rays that must not reach Embree.
     static bool acceptable(Ray const& ray, float t_max);
 
     [[nodiscard]] Bounds3 bounds() const;
     [[nodiscard]] std::size_t bytes() const;
 
+    /// The lanes that may.
+    static LaneMask acceptable(RayPacket const& rays);
+
   private:
     struct Impl;
+    [[nodiscard]] std::uint32_t instance_of(std::uint32_t id) const {
+        return id == kNoInstance ? kNoInstance : id - first_instance_;
+    }
+
     std::unique_ptr<Impl> impl_;
     std::uint32_t first_instance_ = 0;  // geometry id of instance 0
 };
@@ -62,6 +69,14 @@ inline bool RayCaster::acceptable(Ray const& ray, float t_max) {
     float const length2 = ray.d.x * ray.d.x + ray.d.y * ray.d.y + ray.d.z * ray.d.z;
     return bool(tame(ray.o.x) & tame(ray.o.y) & tame(ray.o.z) & (length2 > 0.0f) & (length2 < 1e36f) &
                 (t_max >= 0.0f));
+}
+inline LaneMask RayCaster::acceptable(RayPacket const& rays) {
+    std::array<LaneMask, kLanes> bit;
+    for (std::size_t i = 0; i < kLanes; ++i)
+        bit[i] = static_cast<LaneMask>(acceptable(rays.ray(i), rays.t_max[i])) << i;
+    LaneMask lanes = 0;
+    for (LaneMask const b : bit) lanes |= b;
+    return lanes & rays.used;
 }
 
 }  // namespace nephroid

@@ -6,6 +6,7 @@
 #include "scene/match.h"
 #include "world_parts.h"
 
+#include <bit>
 #include <cmath>
 
 namespace nephroid {
@@ -53,6 +54,34 @@ bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats
     return true;
 }
 
+namespace {
+
+/// Counts a packet's rays, and says which may be traced.
+LaneMask counted(RayPacket const& rays, RayKind kind, RayStats& stats) {
+    LaneMask const lanes = RayCaster::acceptable(rays);
+    stats.rays[static_cast<std::size_t>(kind)] += static_cast<std::uint64_t>(std::popcount(rays.used));
+    stats.rejected += static_cast<std::uint64_t>(std::popcount(rays.used & ~lanes));
+    if (stats.recorder) {
+        int lane = 0;
+        for (std::size_t i = 0; i < kLanes; ++i)
+            if ((lanes >> i & 1u) != 0) stats.recorder->push_back({rays.ray(i), rays.t_max[i], kind, lane++});
+    }
+    return lanes;
+}
+
+}  // namespace
+
+void World::intersect(RayPacket const& rays, RayStats& stats, std::array<RawHit, kLanes>& hits) const {
+    LaneMask const lanes = counted(rays, RayKind::Camera, stats);
+    caster_->nearest(rays, lanes, hits);
+    for (RawHit const& hit : hits) stats.hits += static_cast<std::uint64_t>(hit.found);
+}
+
+bool World::surface(RawHit const& found, SurfaceHit& hit) const {
+    if (found.found) complete(found, hit);
+    return found.found;
+}
+
 /// From what the intersector says to a point on a surface.
 void World::complete(RawHit const& raw, SurfaceHit& hit) const {
     InstanceRecord const* instance = raw.instance == kNoInstance ? nullptr : &parts_->instances[raw.instance];
@@ -85,30 +114,26 @@ float World::presence(SurfaceHit const& hit) const {
 
 float World::transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const {
     ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
-    Ray ray;
-    float t_max = kInfinity;
-    if (to.at_infinity) {
-        ray = from.spawn(to.wi);
-    } else {
-        // Between two points, each moved off its surface towards the other: the far one also by the rounding of the direction,
-        // which grows with the distance and would else reach below a surface seen at grazing. The last 2^-20 of the way
-        // is left out: where the far end is a corner, other surfaces begin there.
-        ray.o = offset_ray_origin(from.s.p, from.s.p_error, from.s.ng, to.p - from.s.p);
-        // What rounding alone lifted out of a lamp's plane sees nothing of the lamp, not even where it is the lamp's own back.
-        if (dot(to.n, from.s.p - to.p) * dot(to.n, ray.o - to.p) < 0.0f) return 0.0f;
-        Vec3 const rounding = gamma_bound(3) * abs(to.p - ray.o);
-        Vec3 const target = offset_ray_origin(to.p, to.p_error + rounding, to.n, ray.o - to.p);
-        ray.d = target - ray.o;
-        t_max = 1.0f - 0x1p-20f;
-    }
-    if (!RayCaster::acceptable(ray, t_max)) {
+    ShadowRay const shadow = shadow_ray(from, to);
+    if (!shadow.lit) return 0.0f;
+    if (!RayCaster::acceptable(shadow.ray, shadow.t_max)) {
         ++stats.rejected;
         return 0.0f;
     }
-    if (stats.recorder) stats.recorder->push_back({ray, t_max, RayKind::Shadow});
-    if (caster_->any(ray, t_max)) return 0.0f;
-    return parts_->partly ? passing_share(ray, t_max, stats) : 1.0f;
+    if (stats.recorder) stats.recorder->push_back({shadow.ray, shadow.t_max, RayKind::Shadow});
+    if (caster_->any(shadow.ray, shadow.t_max)) return 0.0f;
+    return parts_->partly ? passing_share(shadow.ray, shadow.t_max, stats) : 1.0f;
 }
+
+LaneMask World::unoccluded(ShadowPacket const& ends, RayStats& stats) const {
+    RayPacket const rays = ends.rays();
+    stats.rays[static_cast<std::size_t>(RayKind::Shadow)] +=
+        ends.size() - static_cast<std::size_t>(std::popcount(rays.used));
+    LaneMask const lanes = counted(rays, RayKind::Shadow, stats);
+    return lanes & ~caster_->any(rays, lanes);
+}
+
+bool World::passes_partly() const { return parts_->partly; }
 
 /// The product of the shares that partly passing surfaces on the way let through. Chance decides at hits (transport/walk.cpp);
 /// here its mean is at hand, which has no noise. Shadows have no footprint: a picture that says how much passes is looked up

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 namespace nephroid {
 
@@ -23,22 +24,28 @@ inline float next_float_up(float v) {
 }
 inline float next_float_down(float v) { return -next_float_up(-v); }
 
+/// The float next to x, up where `way` is above 0, down where it is below, x itself where it is 0. For finite x, without a branch.
+inline float next_float_towards(float x, float way) {
+    auto const bits = std::bit_cast<std::int32_t>(x);
+    std::int32_t const up = static_cast<std::int32_t>(way > 0.0f) - static_cast<std::int32_t>(way < 0.0f);
+    // The bits without their sign count away from zero.
+    std::int32_t const sign = bits >> 31;
+    std::int32_t const outwards = (up ^ sign) - sign;
+    constexpr std::int32_t kSign = std::numeric_limits<std::int32_t>::min();
+    std::int32_t const from_zero = up == 0 ? bits : (up & kSign) | 1;
+    return std::bit_cast<float>((bits & ~kSign) == 0 ? from_zero : bits + outwards);
+}
+
 /// Moves p off its surface, to the side that w points to, by just more than its error bound `p_error` (absolute, per
 /// coordinate), so that a ray from there cannot hit the surface it leaves. Scales with the scene: no epsilon.
 /// PBRT 4th ed., section 6.8.6 (OffsetRayOrigin).
 inline Vec3 offset_ray_origin(Vec3 p, Vec3 p_error, Vec3 n, Vec3 w) {
-    float const d = dot(abs(n), p_error);
-    Vec3 offset = n * d;
-    if (dot(w, n) < 0.0f) offset = -offset;
-    Vec3 po = p + offset;
-    for (int i = 0; i < 3; ++i) {
-        if (offset[i] > 0.0f) {
-            po[i] = next_float_up(po[i]);
-        } else if (offset[i] < 0.0f) {
-            po[i] = next_float_down(po[i]);
-        }
-    }
-    return po;
+    float d = dot(abs(n), p_error);
+    d = dot(w, n) < 0.0f ? -d : d;
+    Vec3 const offset = n * d;
+    Vec3 const po = p + offset;
+    return {next_float_towards(po.x, offset.x), next_float_towards(po.y, offset.y),
+            next_float_towards(po.z, offset.z)};
 }
 
 }  // namespace nephroid

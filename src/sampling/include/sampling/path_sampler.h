@@ -24,6 +24,8 @@ struct Sequence {
 
 class PathSampler {
   public:
+    /// To be assigned to.
+    PathSampler() = default;
     /// `path` names the pixel (or the photon path) within the picture, `pass` the sample of that pixel.
     PathSampler(Sequence const& sequence, std::uint64_t stream, std::uint64_t path, std::uint64_t pass)
         : sequence_(&sequence),
@@ -91,10 +93,10 @@ class PathSampler {
     [[nodiscard]] float stratified_1d(std::uint64_t key) const;
     [[nodiscard]] Vec2 stratified_2d(std::uint64_t key) const;
 
-    Sequence const* sequence_;
-    std::uint64_t key_;
-    std::uint32_t index_;
-    std::uint32_t reversed_;  // the bits of index_, as Sobol' points want them
+    Sequence const* sequence_ = nullptr;
+    std::uint64_t key_ = 0;
+    std::uint32_t index_ = 0;
+    std::uint32_t reversed_ = 0;  // the bits of index_, as Sobol' points want them
     std::uint32_t dimension_ = 0;
 };
 

@@ -15,7 +15,7 @@ struct TraceSums {
     double distance = 0;             // sum of t over nearest hits
 };
 
-/// Traces recorded rays in their order, one by one, and does nothing else: no surface is looked at.
+/// Traces recorded rays in their order, packets as packets, and does nothing else: no surface is looked at.
 TraceSums trace_only(World const& world, std::span<RecordedRay const> rays);
 
 }  // namespace nephroid

@@ -20,6 +20,14 @@ enum class Passage : std::uint8_t {
     Interface  // light passes as if nothing were there
 };
 
+/// What the intersector says of a nearest hit, before any geometry is looked at.
+struct RawHit {
+    float t = 0, u = 0, v = 0;
+    Vec3 local{0, 0, 0};  // of an analytic shape: the point in its own space
+    std::uint32_t geometry = 0, primitive = 0, instance = kNoInstance;
+    bool found = false;
+};
+
 /// A surface point in world space and what it belongs to.
 struct SurfaceHit {
     SurfacePoint s;
@@ -42,6 +50,7 @@ struct RecordedRay {
     Ray ray;
     float t_max;
     RayKind kind;
+    int lane = -1;  // in its packet, where it was traced in one
 };
 
 /// Counters of one worker; added up when a tile is done, so that threads share nothing.

@@ -7,6 +7,8 @@
 #include "model/light.h"
 #include "scene/scene.h"
 #include "world/hit.h"
+#include "world/ray_packet.h"
+#include "world/shadow.h"
 
 #include <array>
 #include <memory>
@@ -27,8 +29,7 @@ struct WorldCounts {
     std::uint64_t objects = 0, triangles = 0, analytic = 0, instances = 0, lights = 0, infinite_lights = 0;
 };
 
-class RayCaster;  // Embree
-struct RawHit;
+class RayCaster;   // Embree
 class LightTable;  // all lights, and how one is chosen
 struct LightEntry;
 struct WorldParts;
@@ -85,6 +86,10 @@ class World {
     // --- rays -----------------------------------------------------------------------------------------------------------
     /// Nearest hit with 0 < t <= t_max. The direction need not be a unit vector.
     bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const;
+    /// The same of camera rays side by side, to be completed by surface(). What a ray meets does not depend on those beside it.
+    void intersect(RayPacket const& rays, RayStats& stats, std::array<RawHit, kLanes>& hits) const;
+    /// The surface that was hit; false where there was none.
+    bool surface(RawHit const& found, SurfaceHit& hit) const;
     /// How much of the surface is there at a hit, by its alpha: the probability with which a ray that comes by meets it, above 0.
     [[nodiscard]] float presence(SurfaceHit const& hit) const;
     /// The scene's object that was hit: one of its groups', whichever its appearance.
@@ -92,6 +97,10 @@ class World {
     /// The share of light that gets from one surface point to the other (or to the light at infinity): 0 where something solid
     /// is between them, less than 1 behind mixes with interfaces. Both ends are moved off their surfaces by their error bounds.
     float transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;
+    /// Of eight at once: the lanes in whose way there is nothing solid.
+    [[nodiscard]] LaneMask unoccluded(ShadowPacket const& ends, RayStats& stats) const;
+    /// Are there surfaces that let a share of light through? Then transmittance() knows more than unoccluded().
+    [[nodiscard]] bool passes_partly() const;
 
     /// Some material has an interior that paths must know they are in.
     [[nodiscard]] bool encloses() const { return encloses_; }

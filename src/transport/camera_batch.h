@@ -1,0 +1,57 @@
+// Camera samples on their way together: their first rays are traced side by side, and so are those to the lights they sample.
+#pragma once
+
+#include "photon_maps.h"
+#include "shadow_queue.h"
+#include "transport/render_pass.h"
+#include "walk.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nephroid {
+
+class CameraBatch {
+  public:
+    CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats);
+
+    /// Sample `sample` of pixel (x, y), which belongs to `pass`: a pure function of (world, settings, seed, pixel, sample), whatever else
+    /// is in the batch. In the film after the next run(), which a full batch does by itself.
+    void add(int x, int y, std::uint64_t pass, std::uint64_t sample);
+    /// Follows the paths of all samples that were added and adds them to the film in their order. `trace` hears of them, unless null.
+    void run(PathTrace* trace = nullptr);
+    /// Samples that were not finite.
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+
+  private:
+    struct Sample {
+        int x = 0, y = 0;
+        std::uint64_t pass = 0;
+        PathSampler sampler;
+        Wavelengths lambda;
+        Vec2 at{0, 0};  // on the film, pixels
+        float filter_weight = 1;
+        CameraRay camera;
+        SeenLight seen;
+        bool tainted = false;
+    };
+
+    void follow(std::size_t i, RawHit const& first, PathTrace* trace);
+    void finish(std::size_t i, PathTrace* trace);
+
+    RenderJob const& job_;
+    PassWork const& work_;
+    Film& film_;
+    RayStats& stats_;
+    HemisphereSampling hemisphere_;
+    LightSampling lights_;
+    std::uint64_t dropped_ = 0;
+    std::size_t size_ = 0;
+    std::array<Sample, ShadowQueue::kPaths> samples_;
+    std::array<AovSample, ShadowQueue::kPaths> aovs_;
+    NearestPhotons nearest_;
+    ShadowQueue shadows_;
+};
+
+}  // namespace nephroid
