@@ -29,7 +29,7 @@ class PathSampler {
         : sequence_(&sequence),
           key_(hash_keys(sequence.seed ^ (stream << 56), path)),
           index_(static_cast<std::uint32_t>(pass)),
-          reversed_(reverse_bits(index_)) {
+          sobol_(index_) {
         // Beyond 2^32 passes the sequence starts anew under another scramble.
         if (pass >> 32) key_ = hash_keys(key_, pass >> 32);
         if (sequence.kind == SequenceKind::Independent) key_ = hash_keys(key_, pass);
@@ -42,7 +42,7 @@ class PathSampler {
         PathSampler b = *this;
         b.key_ = hash_keys(key_, 0x6272616e6368ull + (index >> 32));
         b.index_ = static_cast<std::uint32_t>(index);
-        b.reversed_ = reverse_bits(b.index_);
+        b.sobol_ = SobolIndex(b.index_);
         if (sequence_->kind == SequenceKind::Independent) b.key_ = hash_keys(b.key_, index);
         return b;
     }
@@ -51,50 +51,39 @@ class PathSampler {
     [[nodiscard]] std::uint32_t dimension() const { return dimension_; }
 
     float next_1d() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        switch (sequence_->kind) {
-            case SequenceKind::Sobol:
-                return sobol_1d(reversed_, key);
-            case SequenceKind::Independent:
-                return to_unit_float(static_cast<std::uint32_t>(key));
-            case SequenceKind::Stratified:
-                return stratified_1d(key);
-        }
-        return 0;
+        std::uint64_t const key = next_key();
+        if (sequence_->kind == SequenceKind::Sobol) [[likely]]
+            return sobol_1d(sobol_, key);
+        return other_1d(key);
     }
     Vec2 next_2d() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        switch (sequence_->kind) {
-            case SequenceKind::Sobol:
-                return sobol_2d(reversed_, key);
-            case SequenceKind::Independent:
-                return {to_unit_float(static_cast<std::uint32_t>(key)),
-                        to_unit_float(static_cast<std::uint32_t>(key >> 32))};
-            case SequenceKind::Stratified:
-                return stratified_2d(key);
-        }
-        return {0, 0};
+        std::uint64_t const key = next_key();
+        if (sequence_->kind == SequenceKind::Sobol) [[likely]]
+            return sobol_2d(sobol_, key);
+        return other_2d(key);
     }
 
     /// A draw of 53 bits, for choosing among many: as well spread as next_1d(), with random bits below the first 32.
     double next_1d_fine() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        if (sequence_->kind == SequenceKind::Independent) return to_unit_double(key);
+        std::uint64_t const key = next_key();
+        if (sequence_->kind != SequenceKind::Sobol) return other_1d_fine(key);
         std::uint64_t const low = mix64(key ^ (index_ + 0x9e3779b97f4a7c15ull)) >> 32;
-        if (sequence_->kind == SequenceKind::Sobol)
-            return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(reversed_, key)) << 32 | low);
-        return stratified_1d_fine(key);
+        return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(sobol_, key)) << 32 | low);
     }
 
   private:
+    std::uint64_t next_key() { return mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_); }
+    // The sequences that are not Sobol's are not inlined where numbers are drawn.
+    [[nodiscard]] float other_1d(std::uint64_t key) const;
+    [[nodiscard]] Vec2 other_2d(std::uint64_t key) const;
+    [[nodiscard]] double other_1d_fine(std::uint64_t key) const;
     [[nodiscard]] double stratified_1d_fine(std::uint64_t key) const;
-    [[nodiscard]] float stratified_1d(std::uint64_t key) const;
     [[nodiscard]] Vec2 stratified_2d(std::uint64_t key) const;
 
     Sequence const* sequence_;
     std::uint64_t key_;
     std::uint32_t index_;
-    std::uint32_t reversed_;  // the bits of index_, as Sobol' points want them
+    SobolIndex sobol_;  // index_, as Sobol' points want it
     std::uint32_t dimension_ = 0;
 };
 
