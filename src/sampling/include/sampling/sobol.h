@@ -18,15 +18,20 @@ namespace nephroid {
 /// Nested uniform scramble of a number whose bits stand reversed (lowest bit first): each bit may depend only on lower ones.
 /// Constants by N. Vegdahl's improvement of Laine & Karras' hash. The first step knows nothing of the seed: a path takes it once
 /// for all its draws.
-constexpr std::uint32_t owen_scramble_begin(std::uint32_t x) { return x ^ x * 0x3d20adeau; }
-constexpr std::uint32_t owen_scramble_end(std::uint32_t x, std::uint32_t seed) {
+template <class Bits>  // of 32, or vectors of them
+constexpr Bits owen_scramble_begin(Bits x) {
+    return x ^ x * 0x3d20adeau;
+}
+template <class Bits>
+constexpr Bits owen_scramble_end(Bits x, Bits seed) {
     x += seed;
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
     return x;
 }
-constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t seed) {
+template <class Bits>
+constexpr Bits owen_scramble_reversed(Bits x, Bits seed) {
     return owen_scramble_end(owen_scramble_begin(x), seed);
 }
 constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
@@ -84,6 +89,8 @@ class SobolIndex {
     [[nodiscard]] constexpr std::uint64_t shuffled(std::uint32_t seed) const {
         return detail::sobol_of_reversed(owen_scramble_end(begun_, seed));
     }
+    /// owen_scramble_begin of the index with its bits reversed.
+    [[nodiscard]] constexpr std::uint32_t begun() const { return begun_; }
 
   private:
     std::uint32_t begun_ = 0;
