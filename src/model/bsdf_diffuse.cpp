@@ -4,12 +4,6 @@
 
 namespace nephroid {
 
-float pdf(DiffuseBsdf const&, Vec3 wo, Vec3 wi, HemisphereSampling how) {
-    if (!same_hemisphere(wo, wi)) return 0.0f;
-    return how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(abs_cos_theta(wi))
-                                             : kUniformHemispherePdf;
-}
-
 std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, Mode mode,
                                  HemisphereSampling how) {
     // One object, built where the caller wants it: a copy right after it was written costs more than the rest.

@@ -44,6 +44,8 @@ std::optional<PreparedCamera> PreparedCamera::make(Camera const& camera, Vec2i r
     Vec2 const pixels{static_cast<float>(resolution.x), static_cast<float>(resolution.y)};
     c.resolution_ = pixels;
     c.direction_scale_ = direction_scale(c.to_world_);
+    c.position_ = c.to_world_.point({0, 0, 0});
+    c.axes_ = {c.to_world_.vector({1, 0, 0}), c.to_world_.vector({0, 1, 0}), c.to_world_.vector({0, 0, 1})};
     auto const screen = screen_of(camera, resolution);
     // Raster y runs down, screen y up.
     Vec2 const size{screen[1] - screen[0], screen[2] - screen[3]};
@@ -56,6 +58,7 @@ std::optional<PreparedCamera> PreparedCamera::make(Camera const& camera, Vec2i r
             c.shift_ = t * corner;
             c.pixel_spread_ = std::abs(c.scale_.x);
             c.has_lens_ = p.lens_radius > 0.0f;
+            c.is_pinhole_ = !c.has_lens_;
         },
         [&](OrthographicCamera const& p) {
             c.scale_ = size / pixels;
@@ -71,7 +74,7 @@ std::optional<PreparedCamera> PreparedCamera::make(Camera const& camera, Vec2i r
     return c;
 }
 
-CameraRay PreparedCamera::ray(Vec2 film, Vec2 lens) const {
+CameraRay PreparedCamera::general_ray(Vec2 film, Vec2 lens) const {
     Vec2 const q = film * scale_ + shift_;
     Vec3 o{0, 0, 0};
     Vec3 d{0, 0, 1};

@@ -3,6 +3,7 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -112,27 +113,26 @@ FilterSampler::Axis FilterSampler::tabulate(Filter const& filter, int axis, doub
         float const next = i + 1 < n ? a.cells[i + 1].cdf : 1.0f;
         if (next > a.cells[i].cdf) a.cells[i].inverse_width = 1.0f / (next - a.cells[i].cdf);
     }
-    // Eight entries a cell: the search then mostly ends where it starts.
-    a.guide.resize(8 * n);
+    // Eight entries a cell: the search then mostly ends where it starts. A power of two: multiplying by it does not round.
+    a.guide.resize(std::bit_ceil(8 * n));
+    a.guide_size = static_cast<float>(a.guide.size());
     for (std::size_t k = 0, i = 0; k < a.guide.size(); ++k) {
-        while (i + 1 < n && a.cells[i + 1].cdf <= static_cast<float>(k) / static_cast<float>(a.guide.size()))
-            ++i;
+        while (i + 1 < n && a.cells[i + 1].cdf <= static_cast<float>(k) / a.guide_size) ++i;
         a.guide[k] = static_cast<std::uint32_t>(i);
     }
+    a.cells.push_back({.cdf = 1.0f});
     return a;
 }
 
 float FilterSampler::Axis::sample(float u, float& w) const {
-    std::size_t const n = cells.size();
-    std::size_t const m = guide.size();
-    std::size_t i = guide[std::min(static_cast<std::size_t>(u * static_cast<float>(m)), m - 1)];
-    while (i > 0 && cells[i].cdf > u) --i;  // u * m may have been rounded up
-    while (i + 1 < n && cells[i + 1].cdf <= u) ++i;
-    while (i > 0 && cells[i].inverse_width == 0.0f) --i;  // never a cell without mass
-    Cell const& c = cells[i];
-    float const t = std::min((u - c.cdf) * c.inverse_width, 1.0f);
-    w *= c.weight + t * c.slope;
-    return std::min(cell_size * (static_cast<float>(i) + t) - radius, radius);
+    // The cell with cdf <= u < the next one's, which so has mass.
+    std::uint32_t const start = guide[static_cast<std::uint32_t>(u * guide_size)];
+    Cell const* c = &cells[start];
+    float i = static_cast<float>(start);
+    for (; c[1].cdf <= u; ++c) ++i;
+    float const t = nephroid::min((u - c->cdf) * c->inverse_width, 1.0f);
+    w *= c->weight + t * c->slope;
+    return nephroid::min(cell_size * (i + t) - radius, radius);
 }
 
 float FilterSampler::Axis::pdf(float offset) const {

@@ -44,10 +44,6 @@ double PathSampler::stratified_1d_fine(std::uint64_t key) const {
     return std::min((static_cast<double>(cell) + offset) / static_cast<double>(n), 1.0 - 0x1p-53);
 }
 
-float PathSampler::stratified_1d(std::uint64_t key) const {
-    return std::min(static_cast<float>(stratified_1d_fine(key)), kOneMinusEpsilon);
-}
-
 Vec2 PathSampler::stratified_2d(std::uint64_t key) const {
     std::uint32_t const nx = std::max(1u, sequence_->x_strata);
     std::uint32_t const ny = std::max(1u, sequence_->y_strata);
@@ -64,6 +60,21 @@ Vec2 PathSampler::stratified_2d(std::uint64_t key) const {
     std::uint32_t const row = cell / nx;
     return {std::min((static_cast<float>(column) + offset.x) / static_cast<float>(nx), kOneMinusEpsilon),
             std::min((static_cast<float>(row) + offset.y) / static_cast<float>(ny), kOneMinusEpsilon)};
+}
+
+float PathSampler::other_1d(std::uint64_t key) const {
+    if (sequence_->kind == SequenceKind::Independent) return to_unit_float(static_cast<std::uint32_t>(key));
+    return std::min(static_cast<float>(stratified_1d_fine(key)), kOneMinusEpsilon);
+}
+
+Vec2 PathSampler::other_2d(std::uint64_t key) const {
+    if (sequence_->kind == SequenceKind::Stratified) return stratified_2d(key);
+    return {to_unit_float(static_cast<std::uint32_t>(key)),
+            to_unit_float(static_cast<std::uint32_t>(key >> 32))};
+}
+
+double PathSampler::other_1d_fine(std::uint64_t key) const {
+    return sequence_->kind == SequenceKind::Independent ? to_unit_double(key) : stratified_1d_fine(key);
 }
 
 }  // namespace nephroid

@@ -124,8 +124,7 @@ Vec2 daylight_xy(float kelvin) {
     return {static_cast<float>(x), static_cast<float>(y)};
 }
 
-Vec3 to_linear_srgb(Spectrum radiance, Wavelengths const& lambda) {
-    if (lambda.is_rgb()) return {radiance[0], radiance[1], radiance[2]};
+Vec3 spectral_to_linear_srgb(Spectrum radiance, Wavelengths const& lambda) {
     RgbObserver const& o = rgb_observer();
     Spectrum const weighed = lambda.weigh(radiance);  // 0, not 0/0, in lanes given up to the hero
     Vec3 sum{0, 0, 0};

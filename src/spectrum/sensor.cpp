@@ -1,7 +1,5 @@
 #include "spectrum/sensor.h"
 
-#include "spectrum/color.h"
-
 #include <algorithm>
 
 namespace nephroid {
@@ -12,13 +10,9 @@ Sensor::Sensor(float imaging_ratio, std::optional<float> white_kelvin) {
         m = xyz_to_rgb(kSrgb) * (white_balance(daylight_xy(*white_kelvin), kSrgb.w) * rgb_to_xyz(kSrgb));
     for (std::size_t i = 0; i < 3; ++i) {
         auto const& row = m[i];
-        rows_[i] = imaging_ratio * Vec3(row[0], row[1], row[2]);
+        for (std::size_t j = 0; j < 3; ++j)
+            columns_[j].set(static_cast<int>(i), imaging_ratio * static_cast<float>(row[j]));
     }
-}
-
-Vec3 Sensor::operator()(Spectrum radiance, Wavelengths const& lambda) const {
-    Vec3 const rgb = to_linear_srgb(radiance, lambda);
-    return {dot(rows_[0], rgb), dot(rows_[1], rgb), dot(rows_[2], rgb)};
 }
 
 bool is_known_sensor_name(std::string_view name) {

@@ -246,6 +246,26 @@ TEST_CASE("the error of a mean: Sobol' and stratified points beat independent on
     CHECK(mse[1][0] / mse[1][1] == doctest::Approx(16).epsilon(0.5));
 }
 
+TEST_CASE("a draw of many paths at once is what each draws by itself, bit for bit") {
+    Random r(9);
+    for (Sequence const& s : sequences(3))
+        for (std::size_t n = 0; n <= 20; ++n) {
+            std::vector<PathSampler> together, alone;
+            for (std::size_t i = 0; i < n; ++i) together.emplace_back(s, 1, r.bits(), r.bits() >> 28);
+            alone = together;
+            std::vector<PathSampler*> paths;
+            for (PathSampler& p : together) paths.push_back(&p);
+            std::vector<Vec2> drawn(n + 1, Vec2{-1, -1});
+            draw_2d(paths, 17, drawn.data());
+            for (std::size_t i = 0; i < n; ++i) {
+                alone[i].at(17);
+                CHECK(drawn[i] == alone[i].next_2d());
+                CHECK(together[i].dimension() == alone[i].dimension());
+            }
+            CHECK(drawn[n] == Vec2{-1, -1});
+        }
+}
+
 TEST_CASE("a pass of the stratified sampler that was rendered last does not change the first") {
     // Nothing knows how many passes there will be: a number is named by its pass alone.
     for (Sequence const& s : sequences(1)) {

@@ -18,7 +18,7 @@ bool is_net(int k, std::uint32_t first, std::uint64_t key) {
         std::uint32_t const ny = n / nx;
         std::vector<char> hit(n, 0);
         for (std::uint32_t i = 0; i < n; ++i) {
-            Vec2 const p = sobol_2d(reverse_bits(first + i), key);
+            Vec2 const p = sobol_2d(SobolIndex(first + i), key);
             auto const x = static_cast<std::uint32_t>(p.x * static_cast<float>(nx));
             auto const y = static_cast<std::uint32_t>(p.y * static_cast<float>(ny));
             if (x >= nx || y >= ny || hit[y * nx + x]++) return false;
@@ -58,8 +58,8 @@ TEST_CASE("one-dimensional runs are stratified") {
             std::vector<char> hit(n, 0);
             bool good = true;
             for (std::uint32_t i = 0; i < n; ++i) {
-                auto const x = static_cast<std::uint32_t>(sobol_1d(reverse_bits(first + i), key) *
-                                                          static_cast<float>(n));
+                auto const x =
+                    static_cast<std::uint32_t>(sobol_1d(SobolIndex(first + i), key) * static_cast<float>(n));
                 good = good && x < n && !hit[x]++;
             }
             CHECK(good);
@@ -69,8 +69,25 @@ TEST_CASE("one-dimensional runs are stratified") {
 TEST_CASE("the second dimension is Sobol's") {
     // Unscrambled: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8.
     float const expected[8] = {0, 0.5f, 0.75f, 0.25f, 0.625f, 0.125f, 0.375f, 0.875f};
-    for (std::uint32_t i = 0; i < 8; ++i)
-        CHECK(to_unit_float(reverse_bits(sobol_second_reversed(i))) == expected[i]);
+    for (std::uint32_t i = 0; i < 8; ++i) CHECK(to_unit_float(sobol_second(i)) == expected[i]);
+}
+
+TEST_CASE("points are what their definition says, bit for bit") {
+    Random r(4);
+    for (int t = 0; t < 100'000; ++t) {
+        auto const index = static_cast<std::uint32_t>(r.bits());
+        std::uint64_t const key = r.bits();
+        auto const shuffle = static_cast<std::uint32_t>(key);
+        auto const scramble = static_cast<std::uint32_t>(key >> 32);
+        std::uint32_t const i = owen_scramble(index, shuffle);
+        std::uint32_t const x = owen_scramble(reverse_bits(i), scramble);
+        std::uint32_t const y = owen_scramble(sobol_second(i), mix32(scramble));
+        Vec2 const p = sobol_2d(SobolIndex(index), key);
+        REQUIRE(p.x == to_unit_float(x));
+        REQUIRE(p.y == to_unit_float(y));
+        REQUIRE(sobol_1d(SobolIndex(index), key) == to_unit_float(x));
+        REQUIRE(sobol_1d_bits(SobolIndex(index), key) == x);
+    }
 }
 
 TEST_CASE("an Owen scramble is nested: equal leading bits stay equal, the next one flips by them alone") {
@@ -91,7 +108,7 @@ TEST_CASE("each point alone is uniform over scrambles") {
     for (std::uint32_t const index : {0u, 1u, 77777u}) {
         std::vector<double> o(32 * 32);
         for (int k = 0; k < n; ++k) {
-            Vec2 const p = sobol_2d(reverse_bits(index), hash_keys(static_cast<std::uint64_t>(k), 5));
+            Vec2 const p = sobol_2d(SobolIndex(index), hash_keys(static_cast<std::uint64_t>(k), 5));
             ++o[static_cast<std::size_t>(p.x * 32) * 32 + static_cast<std::size_t>(p.y * 32)];
         }
         std::vector<double> const e(o.size(), n / 1024.0);
@@ -110,8 +127,8 @@ TEST_CASE("scrambles of different keys are independent") {
             std::uint64_t const key = hash_keys(static_cast<std::uint64_t>(k));
             double a = 0, b = 0;
             for (std::uint32_t i = 0; i < 7; ++i) {
-                a += static_cast<double>(sobol_1d(reverse_bits(i), key)) - 0.5;
-                b += static_cast<double>(sobol_1d(reverse_bits(i), mix64(key + distance))) - 0.5;
+                a += static_cast<double>(sobol_1d(SobolIndex(i), key)) - 0.5;
+                b += static_cast<double>(sobol_1d(SobolIndex(i), mix64(key + distance))) - 0.5;
             }
             sxy += a * b, sxx += a * a, syy += b * b;
         }
@@ -121,9 +138,9 @@ TEST_CASE("scrambles of different keys are independent") {
     std::vector<double> o(16 * 16);
     int const m = 200'000;
     for (int k = 0; k < m; ++k) {
-        float const a = sobol_1d(reverse_bits(3u), mix64(static_cast<std::uint64_t>(k)));
+        float const a = sobol_1d(SobolIndex(3u), mix64(static_cast<std::uint64_t>(k)));
         float const b =
-            sobol_1d(reverse_bits(3u), mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
+            sobol_1d(SobolIndex(3u), mix64(static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ull));
         ++o[static_cast<std::size_t>(a * 16) * 16 + static_cast<std::size_t>(b * 16)];
     }
     CHECK(chi_square(o, std::vector<double>(256, m / 256.0)).p >= 0.001);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/bsdf_sample.h"
+#include "sampling/warp.h"
 
 namespace nephroid {
 
@@ -13,7 +14,11 @@ inline BsdfTraits traits(DiffuseBsdf const&) { return {}; }
 inline Spectrum evaluate(DiffuseBsdf const& b, Vec3 wo, Vec3 wi, Mode) {
     return same_hemisphere(wo, wi) ? b.reflectance * kInvPi : Spectrum{};
 }
-float pdf(DiffuseBsdf const& b, Vec3 wo, Vec3 wi, HemisphereSampling how);
+inline float pdf(DiffuseBsdf const&, Vec3 wo, Vec3 wi, HemisphereSampling how) {
+    if (!same_hemisphere(wo, wi)) return 0.0f;
+    return how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(abs_cos_theta(wi))
+                                             : kUniformHemispherePdf;
+}
 std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float uc, Vec2 u, Mode mode,
                                  HemisphereSampling how);
 inline Spectrum albedo(DiffuseBsdf const& b, Vec3) { return b.reflectance; }

@@ -6,6 +6,7 @@
 #include "math/transform.h"
 #include "scene/camera.h"
 
+#include <array>
 #include <optional>
 
 namespace nephroid {
@@ -36,7 +37,11 @@ class PreparedCamera {
     static std::optional<PreparedCamera> make(Camera const& camera, Vec2i resolution);
 
     /// `film`: raster coordinates, (0,0) the upper left corner, in pixels. `lens` in [0,1)^2.
-    [[nodiscard]] CameraRay ray(Vec2 film, Vec2 lens) const;
+    [[nodiscard]] CameraRay ray(Vec2 film, Vec2 lens) const {
+        if (!is_pinhole_) return general_ray(film, lens);
+        Vec2 const q = film * scale_ + shift_;
+        return {{position_, normalize(axes_[0] * q.x + axes_[1] * q.y + axes_[2])}, 1.0f};
+    }
     /// Where a point of the world is seen, in raster coordinates, also beyond the picture's edge; nothing where no ray of the
     /// camera goes (behind it, or at its very place). Through a lens, as its centre sees it.
     [[nodiscard]] std::optional<Vec2> project(Vec3 p) const;
@@ -55,16 +60,21 @@ class PreparedCamera {
     [[nodiscard]] bool has_lens() const { return has_lens_; }
     /// Width of a pixel's footprint at unit distance along the axis (perspective) or anywhere (orthographic), about.
     [[nodiscard]] float pixel_spread() const { return pixel_spread_; }
-    [[nodiscard]] Vec3 position() const { return to_world_.point({0, 0, 0}); }
+    [[nodiscard]] Vec3 position() const { return position_; }
 
   private:
+    [[nodiscard]] CameraRay general_ray(Vec2 film, Vec2 lens) const;
+
     Camera camera_;
     Transform to_world_;
     // Film to the plane z = 1 (perspective) or to the camera's xy plane (orthographic), or to (u, v) (spherical).
     Vec2 scale_{1, 1}, shift_{0, 0};
     Vec2 resolution_{1, 1};
+    Vec3 position_{0, 0, 0};      // in the world, as …
+    std::array<Vec3, 3> axes_{};  // … x, y and z
     float pixel_spread_ = 0;
     float direction_scale_ = 0;  // of to_world_ (math/transform.h)
+    bool is_pinhole_ = false;
     bool has_lens_ = false;
 };
 

@@ -51,9 +51,9 @@ class FilterSampler {
                   slope = 0;  // f / density, divided by the axis's integral: at the left edge, and its change
             float density = 0;  // per pixel
         };
-        std::vector<Cell> cells;
+        std::vector<Cell> cells;           // and one more, from 1 on, that ends every search
         std::vector<std::uint32_t> guide;  // guide[k]: where the search for u >= k / size starts
-        float radius = 0, cell_size = 0;
+        float radius = 0, cell_size = 0, guide_size = 0;
 
         [[nodiscard]] float sample(float u, float& weight) const;
         [[nodiscard]] float pdf(float offset) const;

@@ -16,7 +16,8 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
     return x;
 }
 /// A bijection of 32 bits (C. Wellons' search, "lowbias32").
-constexpr std::uint32_t mix32(std::uint32_t x) {
+template <class Bits>  // of 32, or vectors of them
+constexpr Bits mix32(Bits x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
     x ^= x >> 15;

@@ -9,6 +9,7 @@
 #include "sampling/sobol.h"
 
 #include <cstdint>
+#include <span>
 
 namespace nephroid {
 
@@ -31,7 +32,7 @@ class PathSampler {
         : sequence_(&sequence),
           key_(hash_keys(sequence.seed ^ (stream << 56), path)),
           index_(static_cast<std::uint32_t>(pass)),
-          reversed_(reverse_bits(index_)) {
+          sobol_(index_) {
         // Beyond 2^32 passes the sequence starts anew under another scramble.
         if (pass >> 32) key_ = hash_keys(key_, pass >> 32);
         if (sequence.kind == SequenceKind::Independent) key_ = hash_keys(key_, pass);
@@ -44,7 +45,7 @@ class PathSampler {
         PathSampler b = *this;
         b.key_ = hash_keys(key_, 0x6272616e6368ull + (index >> 32));
         b.index_ = static_cast<std::uint32_t>(index);
-        b.reversed_ = reverse_bits(b.index_);
+        b.sobol_ = SobolIndex(b.index_);
         if (sequence_->kind == SequenceKind::Independent) b.key_ = hash_keys(b.key_, index);
         return b;
     }
@@ -53,52 +54,46 @@ class PathSampler {
     [[nodiscard]] std::uint32_t dimension() const { return dimension_; }
 
     float next_1d() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        switch (sequence_->kind) {
-            case SequenceKind::Sobol:
-                return sobol_1d(reversed_, key);
-            case SequenceKind::Independent:
-                return to_unit_float(static_cast<std::uint32_t>(key));
-            case SequenceKind::Stratified:
-                return stratified_1d(key);
-        }
-        return 0;
+        std::uint64_t const key = next_key();
+        if (sequence_->kind == SequenceKind::Sobol) [[likely]]
+            return sobol_1d(sobol_, key);
+        return other_1d(key);
     }
     Vec2 next_2d() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        switch (sequence_->kind) {
-            case SequenceKind::Sobol:
-                return sobol_2d(reversed_, key);
-            case SequenceKind::Independent:
-                return {to_unit_float(static_cast<std::uint32_t>(key)),
-                        to_unit_float(static_cast<std::uint32_t>(key >> 32))};
-            case SequenceKind::Stratified:
-                return stratified_2d(key);
-        }
-        return {0, 0};
+        std::uint64_t const key = next_key();
+        if (sequence_->kind == SequenceKind::Sobol) [[likely]]
+            return sobol_2d(sobol_, key);
+        return other_2d(key);
     }
 
     /// A draw of 53 bits, for choosing among many: as well spread as next_1d(), with random bits below the first 32.
     double next_1d_fine() {
-        std::uint64_t const key = mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_);
-        if (sequence_->kind == SequenceKind::Independent) return to_unit_double(key);
+        std::uint64_t const key = next_key();
+        if (sequence_->kind != SequenceKind::Sobol) return other_1d_fine(key);
         std::uint64_t const low = mix64(key ^ (index_ + 0x9e3779b97f4a7c15ull)) >> 32;
-        if (sequence_->kind == SequenceKind::Sobol)
-            return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(reversed_, key)) << 32 | low);
-        return stratified_1d_fine(key);
+        return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(sobol_, key)) << 32 | low);
     }
 
+    friend void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out);
+
   private:
+    std::uint64_t next_key() { return mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_); }
+    // The sequences that are not Sobol's are not inlined where numbers are drawn.
+    [[nodiscard]] float other_1d(std::uint64_t key) const;
+    [[nodiscard]] Vec2 other_2d(std::uint64_t key) const;
+    [[nodiscard]] double other_1d_fine(std::uint64_t key) const;
     [[nodiscard]] double stratified_1d_fine(std::uint64_t key) const;
-    [[nodiscard]] float stratified_1d(std::uint64_t key) const;
     [[nodiscard]] Vec2 stratified_2d(std::uint64_t key) const;
 
     Sequence const* sequence_ = nullptr;
     std::uint64_t key_ = 0;
     std::uint32_t index_ = 0;
-    std::uint32_t reversed_ = 0;  // the bits of index_, as Sobol' points want them
+    SobolIndex sobol_;  // index_, as Sobol' points want it
     std::uint32_t dimension_ = 0;
 };
+
+/// The same draw of many paths of one sequence: out[i] is what paths[i]->at(dimension), next_2d() gives, in a third of the time.
+void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out);
 
 /// Element i of a random permutation of 0..n-1 named by `key` (Kensler 2013, "Correlated Multi-Jittered Sampling").
 std::uint32_t permutation_element(std::uint32_t i, std::uint32_t n, std::uint32_t key);

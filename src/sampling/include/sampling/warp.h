@@ -25,7 +25,10 @@ inline Vec2 square_to_disk(Vec2 u) {
     float const sine =
         phi * (1.0f + p2 * (-1.0f / 6 + p2 * (1.0f / 120 + p2 * (-1.0f / 5040 + p2 * (1.0f / 362880)))));
     float const cosine = 1.0f + p2 * (-0.5f + p2 * (1.0f / 24 + p2 * (-1.0f / 720 + p2 * (1.0f / 40320))));
-    return {r * (along_x ? cosine : sine), r * (along_x ? sine : cosine)};
+    // Both products are made before the choice, lest compilers turn it into a branch.
+    float const along = r * cosine;
+    float const across = r * sine;
+    return {along_x ? along : across, along_x ? across : along};
 }
 inline Vec2 disk_to_square(Vec2 p) {
     float const r = std::sqrt(p.x * p.x + p.y * p.y);

@@ -46,7 +46,11 @@ inline float luminance(Vec3 srgb) { return 0.2126735f * srgb.x + 0.7151516f * sr
 /// an estimate of the integrals over wavelength. They are not divided by the integral of y-bar: lights are normalised instead
 /// (photometric()), as in pbrt-v4. In rgb mode the lanes are the result.
 Vec3 to_xyz(Spectrum radiance, Wavelengths const& lambda);
-Vec3 to_linear_srgb(Spectrum radiance, Wavelengths const& lambda);
+Vec3 spectral_to_linear_srgb(Spectrum radiance, Wavelengths const& lambda);
+inline Vec3 to_linear_srgb(Spectrum radiance, Wavelengths const& lambda) {
+    if (lambda.is_rgb()) return {radiance[0], radiance[1], radiance[2]};
+    return spectral_to_linear_srgb(radiance, lambda);
+}
 
 /// Integral of y-bar(l) spd(l) dl; for an rgb illuminant that of its white alone (pbrt-v4's SpectrumToPhotometric): what an
 /// emission is divided by so that scale counts in luminance.

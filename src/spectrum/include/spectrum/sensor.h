@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/vec.h"
+#include "spectrum/color.h"
 #include "spectrum/spectrum.h"
 #include "spectrum/wavelengths.h"
 
@@ -18,10 +19,14 @@ class Sensor {
     explicit Sensor(float imaging_ratio = 1, std::optional<float> white_kelvin = {});
 
     /// Linear sRGB.
-    [[nodiscard]] Vec3 operator()(Spectrum radiance, Wavelengths const& lambda) const;
+    [[nodiscard]] Vec3 operator()(Spectrum radiance, Wavelengths const& lambda) const {
+        Vec3 const rgb = to_linear_srgb(radiance, lambda);
+        Spectrum const sensed = columns_[0] * rgb.x + columns_[1] * rgb.y + columns_[2] * rgb.z;
+        return {sensed[0], sensed[1], sensed[2]};
+    }
 
   private:
-    std::array<Vec3, 3> rows_;
+    std::array<Spectrum, 3> columns_;  // of the matrix, each in lanes 0..2
 };
 
 inline Vec3 sensor_rgb(Sensor const& sensor, Spectrum radiance, Wavelengths const& lambda) {

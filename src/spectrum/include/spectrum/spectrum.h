@@ -46,8 +46,8 @@ inline Spectrum operator/(Spectrum a, Spectrum b) { return Spectrum(a.v / b.v); 
 inline Spectrum operator/(Spectrum a, float s) { return Spectrum(a.v / Spectrum(s).v); }
 inline Spectrum lerp(float t, Spectrum a, Spectrum b) { return a * (1.0f - t) + b * t; }
 inline Spectrum clamp(Spectrum a, float lo, float hi) {
-    for (int i = 0; i < 4; ++i) a.set(i, clamp(a[i], lo, hi));
-    return a;
+    Spectrum const least(lo), most(hi);
+    return Spectrum(a.v < least.v ? least.v : (a.v > most.v ? most.v : a.v));
 }
 inline Spectrum sqrt(Spectrum a) {
     return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
