@@ -24,7 +24,7 @@ SurfacePoint transformed(AffineMap const& map, SurfacePoint const& s) {
     r.p = map.point(s.p);
     r.p_error = round_trip_error(map, s.p, s.p_error);
     r.ng = normalize(map.area_vector(s.ng) * side);
-    r.ns = normalize(map.area_vector(s.ns) * side);
+    r.ns = s.ns == s.ng ? r.ng : normalize(map.area_vector(s.ns) * side);  // most have one normal
     r.uv = s.uv;
     r.dpdu = map.vector(s.dpdu);
     r.dpdv = map.vector(s.dpdv);

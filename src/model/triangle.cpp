@@ -1,24 +1,76 @@
 // Triangles of a mesh (PBRT 4th ed., 6.5), and the baking of transforms into meshes.
+#include "math/float4.h"
 #include "model/shape.h"
 #include "sampling/warp.h"
 
 namespace nephroid {
 
 namespace {
+
 struct Corners {
     std::size_t i0, i1, i2;
-    Vec3 p0, p1, p2;
+    Float4 p0, p1, p2;
+
+    Corners(TriangleMesh const& m, std::uint32_t triangle) {
+        Vec3i const& t = m.triangles[triangle];
+        i0 = static_cast<std::uint32_t>(t.x);
+        i1 = static_cast<std::uint32_t>(t.y);
+        i2 = static_cast<std::uint32_t>(t.z);
+        p0 = to_lanes(m.p[i0]);
+        p1 = to_lanes(m.p[i1]);
+        p2 = to_lanes(m.p[i2]);
+    }
+    [[nodiscard]] Float4 edge1() const { return p1 - p0; }
+    [[nodiscard]] Float4 edge2() const { return p2 - p0; }
+    /// Along the normal, twice the area long.
+    [[nodiscard]] Float4 area2() const { return cross_accurate(edge1(), edge2()); }
 };
-Corners corners(TriangleMesh const& m, std::uint32_t triangle) {
-    Vec3i const t = m.triangles[triangle];
-    auto const i0 = static_cast<std::size_t>(t.x);
-    auto const i1 = static_cast<std::size_t>(t.y);
-    auto const i2 = static_cast<std::size_t>(t.z);
-    return {i0, i1, i2, m.p[i0], m.p[i1], m.p[i2]};
+
+/// Barycentric coordinates.
+struct Shares {
+    float b0, b1, b2;
+
+    explicit Shares(Vec2 b) : b0(1.0f - b.x - b.y), b1(b.x), b2(b.y) {}
+    template <class T>
+    [[nodiscard]] T mean(T const& v0, T const& v1, T const& v2) const {
+        return b0 * v0 + b1 * v1 + b2 * v2;
+    }
+};
+
+/// The point and the bound on its error.
+void place(Corners const& c, Shares const& b, Vec3& p, Vec3& p_error) {
+    Float4 const p0 = b.b0 * c.p0;
+    Float4 const p1 = b.b1 * c.p1;
+    Float4 const p2 = b.b2 * c.p2;
+    p = to_vec3(p0 + p1 + p2);
+    p_error = to_vec3(gamma_bound(7) * (abs(p0) + abs(p1) + abs(p2)));
 }
-Vec3 interpolated_normal(TriangleMesh const& m, Corners const& c, float b0, float b1, float b2) {
-    return b0 * m.n[c.i0] + b1 * m.n[c.i1] + b2 * m.n[c.i2];
+/// Of a mesh that has normals; not normalised.
+Float4 interpolated_normal(TriangleMesh const& m, Corners const& c, Shares const& b) {
+    return b.mean(to_lanes(m.n[c.i0]), to_lanes(m.n[c.i1]), to_lanes(m.n[c.i2]));
 }
+/// Without coordinates of its own a triangle has (0,0), (1,0), (1,1).
+Vec2 interpolated_uv(TriangleMesh const& m, Corners const& c, Shares const& b) {
+    return m.uv.empty() ? Vec2{b.b1 + b.b2, b.b2} : b.mean(m.uv[c.i0], m.uv[c.i1], m.uv[c.i2]);
+}
+
+void set_tangents(TriangleMesh const& m, Corners const& c, SurfacePoint& r) {
+    Vec3 const e1 = to_vec3(c.edge1());
+    Vec3 const e2 = to_vec3(c.edge2());
+    Vec2 const uv0 = m.uv.empty() ? Vec2{0, 0} : m.uv[c.i0];
+    Vec2 const uv1 = m.uv.empty() ? Vec2{1, 0} : m.uv[c.i1];
+    Vec2 const uv2 = m.uv.empty() ? Vec2{1, 1} : m.uv[c.i2];
+    Vec2 const d1 = uv1 - uv0;
+    Vec2 const d2 = uv2 - uv0;
+    float const det = difference_of_products(d1.x, d2.y, d1.y, d2.x);
+    if (std::abs(det) > 1e-20f) {
+        r.dpdu = (e1 * d2.y - e2 * d1.y) / det;
+        r.dpdv = (e2 * d1.x - e1 * d2.x) / det;
+    } else {
+        r.dpdu = e1, r.dpdv = e2;
+    }
+}
+
 }  // namespace
 
 Bounds3 bounds(TriangleMesh const& mesh) {
@@ -27,65 +79,48 @@ Bounds3 bounds(TriangleMesh const& mesh) {
     return b;
 }
 
-void triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec2 b, bool flip, bool tangents,
+void triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec2 uv, bool flip, bool tangents,
                       SurfacePoint& r) {
-    Corners const c = corners(m, triangle);
-    float const b1 = b.x;
-    float const b2 = b.y;
-    float const b0 = 1.0f - b1 - b2;
-    r.p = b0 * c.p0 + b1 * c.p1 + b2 * c.p2;
-    r.p_error = gamma_bound(7) * (abs(b0 * c.p0) + abs(b1 * c.p1) + abs(b2 * c.p2));
-    Vec3 const e1 = c.p1 - c.p0;
-    Vec3 const e2 = c.p2 - c.p0;
-    r.ng = normalize(cross_accurate(e1, e2));
-    if (flip) r.ng = -r.ng;
-    r.ns = r.ng;
+    Corners const c(m, triangle);
+    Shares const b(uv);
+    place(c, b, r.p, r.p_error);
+    Float4 const area2 = c.area2();
+    float const inv = 1.0f / length(area2);
+    Float4 ng = area2 * (flip ? -inv : inv);
+    Float4 ns = ng;
     if (!m.n.empty()) {
-        Vec3 const ns = interpolated_normal(m, c, b0, b1, b2);
-        float const len2 = length_squared(ns);
+        Float4 const n = interpolated_normal(m, c, b);
+        float const len2 = dot(n, n);
         if (len2 > 0.0f) {
-            r.ns = ns / std::sqrt(len2);
-            r.ng = face_forward(r.ng, r.ns);
+            ns = n / std::sqrt(len2);
+            ng = dot(ng, ns) < 0.0f ? -ng : ng;
         }
     }
-    // Without coordinates of its own a triangle has (0,0), (1,0), (1,1).
-    r.uv = m.uv.empty() ? Vec2{b1 + b2, b2} : b0 * m.uv[c.i0] + b1 * m.uv[c.i1] + b2 * m.uv[c.i2];
+    r.ng = to_vec3(ng);
+    r.ns = to_vec3(ns);
+    r.uv = interpolated_uv(m, c, b);
     if (tangents) {
-        Vec2 const uv0 = m.uv.empty() ? Vec2{0, 0} : m.uv[c.i0];
-        Vec2 const uv1 = m.uv.empty() ? Vec2{1, 0} : m.uv[c.i1];
-        Vec2 const uv2 = m.uv.empty() ? Vec2{1, 1} : m.uv[c.i2];
-        Vec2 const d1 = uv1 - uv0;
-        Vec2 const d2 = uv2 - uv0;
-        float const det = difference_of_products(d1.x, d2.y, d1.y, d2.x);
-        if (std::abs(det) > 1e-20f) {
-            r.dpdu = (e1 * d2.y - e2 * d1.y) / det;
-            r.dpdv = (e2 * d1.x - e1 * d2.x) / det;
-        } else {
-            r.dpdu = e1, r.dpdv = e2;
-        }
+        set_tangents(m, c, r);
     } else {
         r.dpdu = r.dpdv = Vec3{0};
     }
 }
 
 float triangle_area(TriangleMesh const& m, std::uint32_t triangle) {
-    Corners const c = corners(m, triangle);
-    return 0.5f * length(cross_accurate(c.p1 - c.p0, c.p2 - c.p0));
+    return 0.5f * length(Corners(m, triangle).area2());
 }
 
 ShapeSample sample_triangle(TriangleMesh const& m, std::uint32_t triangle, bool flip, Vec2 u) {
-    Corners const c = corners(m, triangle);
-    Vec2 const b = square_to_triangle(u);
-    float const b0 = 1.0f - b.x - b.y;
+    Corners const c(m, triangle);
+    Shares const b(square_to_triangle(u));
     ShapeSample r;
-    r.p = b0 * c.p0 + b.x * c.p1 + b.y * c.p2;
-    r.p_error = gamma_bound(7) * (abs(b0 * c.p0) + abs(b.x * c.p1) + abs(b.y * c.p2));
+    place(c, b, r.p, r.p_error);
     // Twice the area and the normal's direction are one vector.
-    Vec3 const area2 = cross_accurate(c.p1 - c.p0, c.p2 - c.p0);
+    Float4 const area2 = c.area2();
     float const inv = 1.0f / length(area2);
-    r.n = area2 * (flip ? -inv : inv);
-    if (!m.n.empty()) r.n = face_forward(r.n, interpolated_normal(m, c, b0, b.x, b.y));
-    r.uv = m.uv.empty() ? Vec2{b.x + b.y, b.y} : b0 * m.uv[c.i0] + b.x * m.uv[c.i1] + b.y * m.uv[c.i2];
+    r.n = to_vec3(area2 * (flip ? -inv : inv));
+    if (!m.n.empty()) r.n = face_forward(r.n, to_vec3(interpolated_normal(m, c, b)));
+    r.uv = interpolated_uv(m, c, b);
     r.pdf_area = 2.0f * inv;
     return r;
 }

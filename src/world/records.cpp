@@ -29,20 +29,14 @@ bool flips(ObjectRecord const& r) {
 
 }  // namespace
 
-void surface_at(ObjectRecord const& r, InstanceRecord const* instance, ShapeHit const& hit, Vec3 local,
-                bool tangents, SurfacePoint& s) {
+void analytic_surface(ObjectRecord const& r, ShapeHit const& hit, Vec3 local, SurfacePoint& s) {
     match(
-        r.object->shape,
-        [&](TriangleMesh const& m) {
-            triangle_surface(m, hit.part, {hit.u, hit.v}, r.flip, tangents, s);
-        },
-        [](LoopSubdivision const&) {},  // became a TriangleMesh
+        r.object->shape, [](TriangleMesh const&) {}, [](LoopSubdivision const&) {},
         [&](auto const& shape) {
             s = surface(shape, hit, local);
             turn(s, flips(r));
             if (r.place) s = transformed(r.place->shape_to_group, s);
         });
-    if (instance) s = transformed(instance->to_world, s);
 }
 
 ShapeSample sample_part(ObjectRecord const& r, InstanceRecord const* instance, std::uint32_t part, Vec2 u) {

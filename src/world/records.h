@@ -40,10 +40,20 @@ struct InstanceRecord {
     std::uint32_t first_light = 0;   // of the appearance's emitters
 };
 
+/// Geometry of a hit on anything but triangles, in the group's space.
+void analytic_surface(ObjectRecord const& record, ShapeHit const& hit, Vec3 local, SurfacePoint& s);
+
 /// Geometry of a hit, in world space. `local` is the point in the space of an analytic shape, off by rounding.
 /// Fills `s` in place.
-void surface_at(ObjectRecord const& record, InstanceRecord const* instance, ShapeHit const& hit, Vec3 local,
-                bool tangents, SurfacePoint& s);
+inline void surface_at(ObjectRecord const& record, InstanceRecord const* instance, ShapeHit const& hit,
+                       Vec3 const& local, bool tangents, SurfacePoint& s) {
+    if (auto const* mesh = std::get_if<TriangleMesh>(&record.object->shape)) {
+        triangle_surface(*mesh, hit.part, {hit.u, hit.v}, record.flip, tangents, s);
+    } else {
+        analytic_surface(record, hit, local, s);
+    }
+    if (instance) s = transformed(instance->to_world, s);
+}
 /// Uniform by area over one part, in world space.
 ShapeSample sample_part(ObjectRecord const& record, InstanceRecord const* instance, std::uint32_t part,
                         Vec2 u);

@@ -22,11 +22,11 @@ struct ShadowRay {
 inline ShadowRay shadow_ray(Vec3 p, Vec3 p_error, Vec3 n, Vec3 to, Vec3 to_error, Vec3 to_n) {
     ShadowRay shadow;
     Ray& ray = shadow.ray;
-    ray.o = offset_ray_origin(p, p_error, n, to - p);
+    ray.o = offset_of_lane(p, p_error, n, to - p);
     // What rounding alone lifted out of a lamp's plane sees nothing of the lamp, not even where it is the lamp's own back.
     shadow.lit = !(dot(to_n, p - to) * dot(to_n, ray.o - to) < 0.0f);
     Vec3 const rounding = gamma_bound(3) * abs(to - ray.o);
-    ray.d = offset_ray_origin(to, to_error + rounding, to_n, ray.o - to) - ray.o;
+    ray.d = offset_of_lane(to, to_error + rounding, to_n, ray.o - to) - ray.o;
     shadow.t_max = 1.0f - 0x1p-20f;
     return shadow;
 }
