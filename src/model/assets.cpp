@@ -182,6 +182,11 @@ Assets::Assets(Scene const& scene) : scene_(&scene), pictures_(scene) {
             if constexpr (std::same_as<std::remove_cvref_t<decltype(leaf)>, TextureId>)
                 d.textured = d.textured || needs_point(leaf);
         });
+        if (auto const* const m = std::get_if<DiffuseMaterial>(&material.kind)) {
+            d.plain = !d.perturbed && m->reflectance.valid() &&
+                      std::holds_alternative<ConstantSpectrumTexture>(scene[m->reflectance].kind);
+            if (d.plain) d.reflectance = data(m->reflectance).spectrum;
+        }
         return d;
     };
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) look(MaterialId{i});

@@ -72,6 +72,27 @@ void keep_hero(Walk& walk) {
     walk.hero_only = true;
 }
 
+/// Which bodies the walk is in once it leaves along w. Out of line: few worlds enclose anything.
+[[gnu::noinline]] void cross_boundary(PathContext& c, Walk& walk, Vertex const& v, Vec3 w) {
+    walk.interiors = beyond(c, walk, v, w);
+}
+
+/// Any material's scattering, frame and traits. Out of line, where its registers are out of the way of plain ones.
+[[gnu::noinline]] bool prepare_any(PathContext& c, Walk& walk, Vertex& v, MaterialData const& data) {
+    Assets const& assets = c.world.assets();
+    TexturePoint at;
+    if (data.textured) at = texture_point(walk, v.hit);
+    if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
+    if (data.encloses)
+        walk.interiors.immerse(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f,
+                               c.lambda, v.bsdf);
+    if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
+    v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
+    v.is = traits(v.bsdf);
+    if (v.is.hero_only) keep_hero(walk);
+    return true;
+}
+
 }  // namespace
 
 Spectrum transmittance(PathContext const& c, Interiors const& interiors, float distance) {
@@ -164,21 +185,16 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 
 bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     if (!v.material.valid()) return false;
-    Assets const& assets = c.world.assets();
-    MaterialData const& data = assets.data(v.material);
-    static constexpr TexturePoint kAnywhere;
-    std::optional<TexturePoint> here;
-    if (data.textured) here = texture_point(walk, v.hit);
-    TexturePoint const& at = here ? *here : kAnywhere;
-    if (!make_bsdf(assets, v.material, at, c.lambda, v.bsdf)) return false;
-    if (data.encloses)
-        walk.interiors.immerse(assets, {v.hit.material, v.material}, dot(walk.ray.d, v.hit.s.ng) < 0.0f,
-                               c.lambda, v.bsdf);
-    if (data.perturbed) perturb_normal(assets, v.material, at, v.hit.s);
-    v.frame = data.oriented ? frame_from_zx(v.hit.s.ns, v.hit.s.dpdu) : frame_from_z(v.hit.s.ns);
+    MaterialData const& data = c.world.assets().data(v.material);
+    if (data.plain) {
+        // Most of what paths meet.
+        make_plain_bsdf(data, c.lambda, v.bsdf);
+        v.is = {};
+        v.frame = frame_from_z(v.hit.s.ns);
+    } else if (!prepare_any(c, walk, v, data)) {
+        return false;
+    }
     v.wo_local = v.frame.to_local(-walk.ray.d);
-    v.is = traits(v.bsdf);
-    if (v.is.hero_only) keep_hero(walk);
     if (c.trace) c.trace->scatters(v);
     return true;
 }
@@ -245,14 +261,18 @@ void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, See
     }
 }
 
-bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
+namespace {
+
+/// The body of follow(), in line where most paths go on.
+[[gnu::always_inline]] inline bool go_on(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     Vec3 const wi = normalize(v.frame.from_local(s.wi));
     walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf *
                         shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng));
     if (s.keep_hero) keep_hero(walk);
+    Spectrum const beta = walk.beta;
     if (c.trace) c.trace->scattered(c, walk, v, s, wi);
-    if (walk.beta.is_black()) return false;
-    if (!walk.beta.is_finite()) {
+    if (beta.is_black()) return false;
+    if (!beta.is_finite()) {
         c.tainted = true;
         return false;
     }
@@ -262,11 +282,15 @@ bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
     walk.cone += v.hit.t;
     walk.path_class.scatter(s.delta || v.is.near_specular);
-    if (c.world.encloses()) walk.interiors = beyond(c, walk, v, wi);
+    if (c.world.encloses()) cross_boundary(c, walk, v, wi);
     walk.ray = v.hit.spawn(wi);
     ++walk.vertex;
     return true;
 }
+
+}  // namespace
+
+bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) { return go_on(c, walk, v, s); }
 
 bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     // Draws have names, so those that nothing asks for are left out.
@@ -282,7 +306,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     }
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, walk.mode, c.hemisphere);
     if (!s && c.trace) c.trace->absorbed();
-    return s && follow(c, walk, v, *s);
+    return s && go_on(c, walk, v, *s);
 }
 
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {

@@ -111,7 +111,7 @@ struct Vertex {
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
 inline Receiver receiver_of(Vertex const& v) {
-    return {v.hit.s.p, v.wo_local.z < 0.0f ? -v.hit.s.ns : v.hit.s.ns, v.is.spreads_through};
+    return {v.hit.s.p, v.hit.s.ns * (v.wo_local.z < 0.0f ? -1.0f : 1.0f), v.is.spreads_through};
 }
 
 /// The geometric normal on the side that the ray came from.

@@ -122,7 +122,7 @@ std::optional<LightRay> World::emit_from_surface(std::uint32_t light, BoundingSp
     std::optional<LightRay> result;
     LightEntry const& entry = lights_->entries[light];
     Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
-    bool const two_sided = emitter.light->two_sided;
+    bool const two_sided = emitter.two_sided;
     LightSample point;
     float const area_pdf = sample_emitter_area(*lights_, *parts_, entry, u_position, point);
     if (!(area_pdf > 0.0f) || !std::isfinite(area_pdf)) return result;
@@ -157,8 +157,8 @@ float World::aimed_density(LightRay const& ray, BoundingSphere const* ball) cons
     LightEntry const& entry = lights_->entries[ray.light];
     EmissionSample const& e = ray.emission;
     if (entry.shape != LightShape::NoSurface)
-        return density_from_surface(
-            e, ball, lights_->emitters[parts_->records[entry.record].emitter].light->two_sided);
+        return density_from_surface(e, ball,
+                                    lights_->emitters[parts_->records[entry.record].emitter].two_sided);
     LightId const id{entry.part};
     if (!ball) {
         EmissionDensity const d = nephroid::emission_density((*scene_)[id], lights_->data[id.value],
@@ -187,7 +187,7 @@ bool World::may_reach(std::uint32_t light, BoundingSphere const& ball) const {
         case LightShape::Triangle:
         case LightShape::Rectangle:
         case LightShape::Parallelogram: {
-            if (lights_->emitters[parts_->records[e.record].emitter].light->two_sided) return true;
+            if (lights_->emitters[parts_->records[e.record].emitter].two_sided) return true;
             float const slack = 1e-3f * ball.radius + 1e-6f * length(ball.centre - e.corner);
             return dot(e.normal, ball.centre - e.corner) + ball.radius + slack > 0.0f;
         }

@@ -13,16 +13,25 @@ namespace nephroid {
 namespace {
 
 /// p_w = p_A r^2 / |cos| (PBRT 4th ed., eq. 4.17).
-float by_solid_angle(float area_pdf, Vec3 from, Vec3 p, Vec3 n, Vec3 w) {
-    float const cosine = abs_dot(n, w);
-    return cosine > 0.0f ? area_pdf * distance_squared(p, from) / cosine : 0.0f;
+float by_solid_angle(float area_pdf, float distance2, float cosine) {
+    return cosine > 0.0f ? area_pdf * distance2 / cosine : 0.0f;
 }
-/// Sets the direction; false where the point is the receiver itself.
-bool aim(Receiver const& to, LightSample& s) {
+float by_solid_angle(float area_pdf, Vec3 from, Vec3 p, Vec3 n, Vec3 w) {
+    return by_solid_angle(area_pdf, distance_squared(p, from), abs_dot(n, w));
+}
+
+/// The way from the receiver to the point of the sample.
+struct Way {
+    float distance2;
+    float cosine;  // at the emitter
+};
+/// Sets the direction. The distance is 0 where the point is the receiver itself.
+Way aim(Receiver const& to, LightSample& s) {
     Vec3 const d = s.p - to.p;
     float const r2 = length_squared(d);
-    s.wi = d * (1.0f / std::sqrt(r2));
-    return r2 > 0.0f;
+    Vec3 const wi = d * (1.0f / std::sqrt(r2));
+    s.wi = wi;
+    return {r2, abs_dot(s.n, wi)};
 }
 
 /// Rounding may carry a point over its part's edge, where a density over the square would be 0.
@@ -71,14 +80,14 @@ struct FlatEmitter {
         if (view == FlatView::Between) {
             float square_pdf = 0;
             float const by_area = draw_by_area(bend_square(e, to, u, square_pdf), s);
-            if (!aim(to, s)) return false;
-            s.pdf = by_solid_angle(square_pdf * by_area, to.p, s.p, s.n, s.wi);
-            return true;
+            Way const way = aim(to, s);
+            s.pdf = by_solid_angle(square_pdf * by_area, way.distance2, way.cosine);
+            return way.distance2 > 0.0f;
         }
         Vec2 st;
         if (!sample_near_flat(e, to, u, st, s.pdf)) return false;
         put(st, s);
-        return aim(to, s);
+        return aim(to, s).distance2 > 0.0f;
     }
     [[nodiscard]] float seen_pdf(Vec3 p, Vec3 w) const {
         return view == FlatView::Near
@@ -121,7 +130,7 @@ struct RoundEmitter : PartOfRecord {
                  Receiver const& receiver, ShapeSampling how)
         : PartOfRecord(parts, entry), shape(s), place(lights.places[entry.more]), to(receiver) {
         if (how != ShapeSampling::SolidAngle) return;
-        bool const two_sided = lights.emitters[record.emitter].light->two_sided;
+        bool const two_sided = lights.emitters[e.emitter].two_sided;
         view = seen(shape, place.to_shape.point(to.p),
                     two_sided     ? EmittingSides::Both
                     : record.flip ? EmittingSides::Back
@@ -145,7 +154,7 @@ struct RoundEmitter : PartOfRecord {
         Vec3 const n = normalize(place.to_world.area_vector(local.n));
         s.n = (place.to_world.determinant() < 0.0f) != record.flip ? -n : n;
         s.uv = local.uv;
-        if (!aim(to, s)) return false;
+        if (!(aim(to, s).distance2 > 0.0f)) return false;
         s.pdf = local.pdf * density(s.wi);
         return true;
     }
@@ -198,8 +207,8 @@ Distribution2D const* picture_of(LightTable const& lights, LightEntry const& e, 
 }
 
 template <class Emitting>
-bool sample(Emitting const& emitter, Distribution2D const* picture, Receiver const& to, Vec2 u,
-            LightSample& s) {
+[[gnu::always_inline]] inline bool sample(Emitting const& emitter, Distribution2D const* picture,
+                                          Receiver const& to, Vec2 u, LightSample& s) {
     bool const by_picture = picture && u.x < kPictureShare;
     if (picture)
         u.x = min(by_picture ? u.x / kPictureShare : (u.x - kPictureShare) / (1.0f - kPictureShare),
@@ -209,9 +218,10 @@ bool sample(Emitting const& emitter, Distribution2D const* picture, Receiver con
     if (by_picture || !emitter.has_view) {
         if (by_picture) square = picture->sample(u);
         area_pdf = emitter.draw_by_area(square, s);
-        if (!aim(to, s)) return false;
-        s.pdf =
-            emitter.has_view ? emitter.seen_pdf(s.p, s.wi) : by_solid_angle(area_pdf, to.p, s.p, s.n, s.wi);
+        Way const way = aim(to, s);
+        if (!(way.distance2 > 0.0f)) return false;
+        s.pdf = emitter.has_view ? emitter.seen_pdf(s.p, s.wi)
+                                 : by_solid_angle(area_pdf, way.distance2, way.cosine);
     } else {
         if (!emitter.draw_seen(u, s)) return false;
         if (picture) square = emitter.square(s.p), area_pdf = emitter.area_pdf(s.p, s.n);
@@ -273,25 +283,34 @@ auto with_emitter(LightTable const& lights, WorldParts const& parts, LightEntry 
     }
 }
 
-SeenBox seen_box(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
-                 ShapeSampling how) {
-    return SeenBox(lights.boxes[e.more], to, how,
-                   lights.emitters[parts.records[e.record].emitter].light->two_sided);
+SeenBox seen_box(LightTable const& lights, LightEntry const& e, Receiver const& to, ShapeSampling how) {
+    return SeenBox(lights.boxes[e.more], to, how, lights.emitters[e.emitter].two_sided);
+}
+
+}  // namespace
+
+namespace {
+
+/// Any but those that sample_emitter draws itself. Out of line: its frame is large.
+[[gnu::noinline]] bool sample_any(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
+                                  Receiver const& to, ShapeSampling how, Vec2 u, LightSample& s) {
+    if (e.flat() && e.picture == LightEntry::kNone)
+        return sample(FlatEmitter(lights, e, to, how), nullptr, to, u, s);
+    return sample_any(lights, parts, e, to, how, u, s);
 }
 
 }  // namespace
 
 bool sample_emitter(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
                     Receiver const& to, ShapeSampling how, Vec2 u, LightSample& s) {
-    if (e.shape == LightShape::Box) return seen_box(lights, parts, e, to, how).sample(u, s);
-    Distribution2D const* picture = picture_of(lights, e, how);
-    return with_emitter(lights, parts, e, to, how,
-                        [&](auto const& emitter) { return sample(emitter, picture, to, u, s); });
+    if (e.flat() && e.picture == LightEntry::kNone)
+        return sample(FlatEmitter(lights, e, to, how), nullptr, to, u, s);
+    return sample_any(lights, parts, e, to, how, u, s);
 }
 
 float emitter_pdf(LightTable const& lights, WorldParts const& parts, LightEntry const& e, Receiver const& to,
                   ShapeSampling how, SurfaceHit const& hit, Vec3 w) {
-    if (e.shape == LightShape::Box) return seen_box(lights, parts, e, to, how).pdf(hit.part, hit.s.p, w);
+    if (e.shape == LightShape::Box) return seen_box(lights, e, to, how).pdf(hit.part, hit.s.p, w);
     Distribution2D const* picture = picture_of(lights, e, how);
     return with_emitter(lights, parts, e, to, how,
                         [&](auto const& emitter) { return pdf(emitter, picture, to, hit, w); });

@@ -104,6 +104,7 @@ void fill(LightEntry& e, Flat const& f) {
     e.corner = f.at.p;
     e.edge1 = f.next1.p - f.at.p;
     e.edge2 = f.next2.p - f.at.p;
+    e.centroid = e.corner + (f.full ? 0.5f : 1.0f / 3.0f) * (e.edge1 + e.edge2);
     Vec3 const area = cross_accurate(e.edge1, e.edge2);
     float const twice = length(area);
     e.area_pdf = (f.full ? 1.0f : 2.0f) / twice;
@@ -213,7 +214,7 @@ struct Gatherer {
             lights.entry_of_part.insert(lights.entry_of_part.end(), n,
                                         static_cast<std::uint32_t>(lights.entries.size()));
         };
-        LightEntry const fresh{.record = index, .instance = instance};
+        LightEntry const fresh{.record = index, .instance = instance, .emitter = r.emitter};
         if (auto const* box = std::get_if<Box>(&r.object->shape); box && !e.textured()) {
             named(count);
             add_box(fresh, *box, r, where, e);
@@ -426,6 +427,8 @@ std::uint32_t add_emitter(Scene const& scene, Assets& assets, LightTable& lights
     Emitter e;
     e.light = &l;
     e.alpha = r.object->alpha;
+    e.two_sided = l.two_sided;
+    e.even = !l.image.valid() && !l.texture.valid() && !e.alpha.valid();
     e.cut = e.alpha.valid() && !assets.data(e.alpha).flat;
     e.unseen = e.alpha.valid() && assets.data(e.alpha).flat && !(assets.data(e.alpha).value > 0.0f);
     // Lumens of a surface of luminance 1: pi * area * sides (* the picture's mean luminance; pbrt-v4's, over the picture).

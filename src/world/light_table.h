@@ -14,8 +14,10 @@ namespace nephroid {
 struct Emitter {
     RuntimeSpectrum radiance;  // scale applied
     AreaLight const* light = nullptr;
-    TextureId alpha;      // of the surface; none = it is there everywhere
-    bool cut = false;     // alpha varies
+    TextureId alpha;   // of the surface; none = it is there everywhere
+    bool cut = false;  // alpha varies
+    bool two_sided = false;
+    bool even = false;    // nothing varies: no picture, no texture and no alpha
     bool unseen = false;  // alpha is 0: it is not there, but shines (pbrt), and only light sampling finds it
 
     /// The emission depends on the place.
@@ -42,12 +44,20 @@ struct LightEntry {
     std::uint32_t instance = kNoInstance;
     std::uint32_t more = kNone;
     std::uint32_t picture = kNone;  // pictures[picture]: where on the part it is bright
+    std::uint32_t emitter = kNone;  // of the record
     LightShape shape = LightShape::Part;
     bool boundless = false;  // at infinity: no tree holds it
+
+    [[nodiscard]] bool flat() const {
+        return shape == LightShape::Triangle || shape == LightShape::Rectangle ||
+               shape == LightShape::Parallelogram;
+    }
+
     // Flat: corner + s edge1 + t edge2.
     float area_pdf = 0;  // 1 / area
     float size2 = 0;     // the squared diagonal
     Vec3 corner{0, 0, 0}, edge1{0, 0, 0}, edge2{0, 0, 0};
+    Vec3 centroid{0, 0, 0};
     Vec3 normal{0, 0, 1};   // of the side that emits
     Vec3 p_error{0, 0, 0};  // of any of its points
 };

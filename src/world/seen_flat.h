@@ -10,12 +10,11 @@ namespace nephroid {
 /// alone where it is next to nothing.
 enum class FlatView : std::uint8_t { Near, Between, Far };
 inline FlatView view_of(LightEntry const& e, Receiver const& to) {
-    float const part = e.shape == LightShape::Triangle ? 1.0f / 3.0f : 0.5f;
-    Vec3 const v = e.corner + part * (e.edge1 + e.edge2) - to.p;
+    Vec3 const v = e.centroid - to.p;
     float const d2 = dot(v, v);
     float const along = abs_dot(e.edge1, v) + abs_dot(e.edge2, v);
-    if (e.size2 > d2 || along > 0.5f * d2) return FlatView::Near;
-    return e.size2 > 0.3f * d2 || along > 0.35f * d2 ? FlatView::Between : FlatView::Far;
+    if (!(e.size2 > 0.3f * d2 || along > 0.35f * d2)) return FlatView::Far;
+    return e.size2 > d2 || along > 0.5f * d2 ? FlatView::Near : FlatView::Between;
 }
 
 /// (s, t) of a point of the plane: corner + s edge1 + t edge2.

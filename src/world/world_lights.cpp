@@ -27,7 +27,7 @@ char const* kind_of(Light const& light) {
 Spectrum World::emitted(SurfaceHit const& hit, Vec3 w, Wavelengths const& lambda) const {
     if (!hit.emits) return {};
     Emitter const& e = lights_->emitters[parts_->records[hit.record].emitter];
-    if (!e.light->two_sided && dot(hit.s.ng, w) <= 0.0f) return {};
+    if (!e.two_sided && dot(hit.s.ng, w) <= 0.0f) return {};
     return emission_at(*assets_, e, hit.s.p, hit.s.uv, lambda);
 }
 
@@ -44,6 +44,27 @@ Spectrum World::environment(Vec3 p, Vec3 w, Wavelengths const& lambda) const {
 
 bool World::chooses_lights() const { return lights_->entries.size() > 1; }
 
+[[gnu::always_inline]] inline std::optional<LightSample> World::sample_area_light(
+    LightEntry const& entry, float pmf, Receiver const& to, ShapeSampling how, Vec2 u,
+    Wavelengths const& lambda) const {
+    // A copy of a constant: to clear it in place becomes a string instruction, which takes longer than drawing the point.
+    static constexpr LightSample kNone;
+    std::optional<LightSample> result;
+    LightSample& s = result.emplace(kNone);
+    if (!sample_emitter(*lights_, *parts_, entry, to, how, u, s)) {
+        result.reset();
+        return result;
+    }
+    s.pdf *= pmf;
+    Emitter const& emitter = lights_->emitters[entry.emitter];
+    if (emitter.two_sided || dot(s.n, s.wi) < 0.0f)
+        s.radiance = emitter.even ? emitter.radiance.sample(lambda)
+                                  : emission_at(*assets_, emitter, s.p, s.uv, lambda) *
+                                        opacity(*assets_, emitter, s.p, s.uv);
+    s.delta = emitter.unseen;  // no ray finds it
+    return result;
+}
+
 std::optional<LightSample> World::sample_light(Receiver const& to, LightSampling how, double u_choose, Vec2 u,
                                                Wavelengths const& lambda) const {
     LightTable::Choice const choice = lights_->choose(to, how.choice, u_choose);
@@ -59,24 +80,6 @@ std::optional<LightSample> World::sample_light_without_surface(LightId id, float
     auto s = nephroid::sample_light((*scene_)[id], lights_->data[id.value], *assets_, p, u, lambda);
     if (s) s->pdf *= pmf;
     return s;
-}
-
-std::optional<LightSample> World::sample_area_light(LightEntry const& entry, float pmf, Receiver const& to,
-                                                    ShapeSampling how, Vec2 u,
-                                                    Wavelengths const& lambda) const {
-    std::optional<LightSample> result;
-    LightSample& s = result.emplace();
-    if (!sample_emitter(*lights_, *parts_, entry, to, how, u, s)) {
-        result.reset();
-        return result;
-    }
-    s.pdf *= pmf;
-    Emitter const& emitter = lights_->emitters[parts_->records[entry.record].emitter];
-    if (emitter.light->two_sided || dot(s.n, s.wi) < 0.0f)
-        s.radiance =
-            emission_at(*assets_, emitter, s.p, s.uv, lambda) * opacity(*assets_, emitter, s.p, s.uv);
-    s.delta = emitter.unseen;  // no ray finds it
-    return result;
 }
 
 std::uint32_t World::entry_of(SurfaceHit const& hit) const {
@@ -131,7 +134,7 @@ EmissionDensity World::emission_density(SurfaceHit const& from, Vec3 w) const {
     EmissionDensity d;
     if (!from.emits || lights_->by_power.empty()) return d;
     std::uint32_t const entry = entry_of(from);
-    bool const two_sided = lights_->emitters[parts_->records[from.record].emitter].light->two_sided;
+    bool const two_sided = lights_->emitters[parts_->records[from.record].emitter].two_sided;
     float const cosine = two_sided ? abs_dot(from.s.ng, w) : dot(from.s.ng, w);
     d.position =
         lights_->by_power.pmf(entry) * emitter_area_pdf(*lights_, *parts_, lights_->entries[entry], from);

@@ -24,8 +24,10 @@ struct TextureData {
 struct MaterialData {
     RuntimeSpectrum eta;                             // of a dielectric, thin or a coat
     RuntimeSpectrum absorption;                      // inside, 1 / length
+    RuntimeSpectrum reflectance;                     // of a plain one
     std::shared_ptr<MeasuredTables const> measured;  // of a measured material; one of each file
     int priority = 0;                                // of its interior (scene/material.h)
+    bool plain = false;  // diffuse and of one colour, on the surface as it is: nothing else has to be asked
     bool encloses = false;   // its interior has a priority or absorbs: paths have to know that they are in it
     bool textured = false;   // needs uv and tangents at the hit
     bool oriented = false;   // the shading frame's x axis matters

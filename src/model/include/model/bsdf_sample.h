@@ -23,13 +23,13 @@ struct BsdfSample {
     bool proportional = false;  // f / pdf is right, but the density of wi is what pdf() says, not `pdf`
 };
 
-/// What a walk has to know of a model before it asks.
+/// What a walk has to know of a model before it asks. One byte, lest each model fill five.
 struct BsdfTraits {
-    bool delta = false;            // nothing but delta parts: no light can be sampled towards
-    bool spreads_through = false;  // `evaluate` may be above 0 with wo and wi on different sides
-    bool chooses = false;          // `sample` looks at uc
-    bool hero_only = false;        // it holds for the hero lane alone: the others end here
-    bool near_specular = false;    // nothing but delta and near-specular parts (Microfacets::near_specular)
+    bool delta : 1 = false;            // nothing but delta parts: no light can be sampled towards
+    bool spreads_through : 1 = false;  // `evaluate` may be above 0 with wo and wi on different sides
+    bool chooses : 1 = false;          // `sample` looks at uc
+    bool hero_only : 1 = false;        // it holds for the hero lane alone: the others end here
+    bool near_specular : 1 = false;  // nothing but delta and near-specular parts (Microfacets::near_specular)
 };
 
 /// The functions of one model, defined in its own file.

@@ -18,6 +18,11 @@ float spreading_share(Assets const& assets, MaterialId id, TexturePoint const& a
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf);
 
+/// The same for a material that is plain (MaterialData).
+inline void make_plain_bsdf(MaterialData const& data, Wavelengths const& lambda, Bsdf& bsdf) {
+    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{as_share(data.reflectance.sample(lambda))});
+}
+
 /// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.
 inline Spectrum index_lanes(RuntimeSpectrum const& eta, Wavelengths const& lambda) {
     return lambda.is_rgb() ? Spectrum(eta.rgb().y) : eta.sample(lambda);

@@ -16,8 +16,9 @@ struct Overloads : F... {
 template <class... F>
 Overloads(F...) -> Overloads<F...>;
 
+/// Always inline: what the overloads capture then stays in registers on its way to the functions they call.
 template <class Variant, class... F>
-decltype(auto) match(Variant&& v, F&&... f) {
+[[gnu::always_inline]] inline decltype(auto) match(Variant&& v, F&&... f) {
     constexpr std::size_t kCount = std::variant_size_v<std::remove_cvref_t<Variant>>;
     constexpr std::size_t kMost = 20;
     static_assert(kCount <= kMost, "add a line of cases below");
