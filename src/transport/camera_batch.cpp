@@ -37,16 +37,28 @@ Vec3 sensor_value(RenderJob const& job, SeenLight const& seen, float weight, Wav
 }  // namespace
 
 CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats)
-    : job_(job),
-      work_(work),
-      film_(film),
-      stats_(stats),
-      hemisphere_(hemisphere_of(job.settings().integrator)),
-      lights_(lights_of(job.settings().integrator)),
-      shadows_(job.world(), stats) {}
+    : job_(job), film_(film), stats_(stats), shadows_(job.world(), stats) {
+    Integrator const& integrator = job.settings().integrator;
+    bool const in_step = std::holds_alternative<PathIntegrator>(integrator);
+    paths_.reserve(kMostInStep);
+    for (std::size_t i = 0; i < kMostInStep; ++i) {
+        PathInFlight& path = paths_.emplace_back(
+            PathInFlight{{job, job.world(), {}, samples_[i].sampler, stats}, {}, {}, {}, {}});
+        path.c.hemisphere = hemisphere_of(integrator);
+        path.c.lights = lights_of(integrator);
+        path.c.photons = work.photons.get();
+        path.c.nearest = &nearest_;
+        path.c.camera_hit = &path.met;
+        path.c.shadows = &shadows_;
+        path.c.path = static_cast<std::uint32_t>(i);
+        path.v.drawn_ahead = in_step;
+        if (film.has_aovs()) path.aov = &aovs_[i];
+    }
+}
 
 void CameraBatch::add(int x, int y, std::uint64_t pass, std::uint64_t sample) {
     Sample& s = samples_[size_];
+    PathContext& c = paths_[size_].c;
     s.x = x, s.y = y, s.pass = pass;
     // The pixel's own name, whatever the crop window or the resolution.
     std::uint64_t const pixel =
@@ -58,57 +70,72 @@ void CameraBatch::add(int x, int y, std::uint64_t pass, std::uint64_t sample) {
     s.sampler.at(dimension::kLens);
     Vec2 const lens = job_.camera().has_lens() ? s.sampler.next_2d() : Vec2{0.5f, 0.5f};
     s.sampler.at(dimension::kWavelength);
-    s.lambda = job_.prepares()                           ? job_.pass_wavelengths(pass)
+    c.lambda = job_.prepares()                           ? job_.pass_wavelengths(pass)
                : job_.settings().color == ColorMode::Rgb ? Wavelengths::rgb()
                                                          : Wavelengths::spectral(s.sampler.next_1d());
     s.at = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset;
     s.camera = job_.camera().ray(s.at, lens);
-    if (++size_ == samples_.size()) run();
+    if (++size_ == kMostInStep) run();
 }
 
 void CameraBatch::run(PathTrace* trace) {
-    std::array<RawHit, kLanes> first;
-    for (std::size_t begin = 0; begin < size_; begin += kLanes) {
-        std::size_t const end = std::min(begin + kLanes, size_);
-        RayPacket rays;
-        for (std::size_t i = begin; i < end; ++i) rays.set(i - begin, samples_[i].camera.ray, kInfinity);
-        job_.world().intersect(rays, stats_, first);
-        for (std::size_t i = begin; i < end; ++i) follow(i, first[i - begin], trace);
+    trace_camera_rays();
+    shadows_.begin();
+    for (std::size_t i = 0; i < size_; ++i) {
+        PathInFlight& path = paths_[i];
+        path.c.tainted = false;
+        path.c.trace = trace;
+        path.seen = {};
+        if (path.aov) *path.aov = {};
+        if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
+    }
+    if (auto const* p = std::get_if<PathIntegrator>(&job_.settings().integrator)) {
+        std::array<PathInFlight*, kMostInStep> going;
+        for (std::size_t i = 0; i < size_; ++i) {
+            paths_[i].walk = Walk::from_camera(paths_[i].c, samples_[i].camera.ray);
+            going[i] = &paths_[i];
+        }
+        follow_paths(*p, {going.data(), size_});
+    } else {
+        for (std::size_t i = 0; i < size_; ++i) follow(i);
     }
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);
     size_ = 0;
 }
 
-void CameraBatch::follow(std::size_t i, RawHit const& first, PathTrace* trace) {
-    Sample& s = samples_[i];
-    PathContext c{job_,    job_.world(),        s.lambda, s.sampler, stats_, hemisphere_,
-                  lights_, work_.photons.get(), &nearest_};
-    c.camera_hit = &first;
-    c.shadows = &shadows_;
-    c.trace = trace;
-    if (trace) trace->begins(c, s.at, s.camera);
-    AovSample* aov = nullptr;
-    if (film_.has_aovs()) {
-        aovs_[i] = {};
-        aov = &aovs_[i];
+void CameraBatch::trace_camera_rays() {
+    std::array<RawHit, kLanes> hits;
+    for (std::size_t begin = 0; begin < size_; begin += kLanes) {
+        std::size_t const n = std::min(kLanes, size_ - begin);
+        RayPacket rays;
+        for (std::size_t i = 0; i < n; ++i) rays.set(i, samples_[begin + i].camera.ray, kInfinity);
+        job_.world().intersect(rays, stats_, hits);
+        for (std::size_t i = 0; i < n; ++i) paths_[begin + i].met = hits[i];
     }
-    shadows_.begin_path(i);
-    s.seen = match(
-        job_.settings().integrator, [](LightPathIntegrator const&) { return SeenLight{}; },
-        [&](auto const& integrator) { return radiance(integrator, c, s.camera.ray, aov); });
-    s.tainted = c.tainted;
+}
+
+void CameraBatch::follow(std::size_t i) {
+    PathInFlight& path = paths_[i];
+    path.seen = match(
+        job_.settings().integrator,
+        // One draws its picture elsewhere, the other is followed in step.
+        [](LightPathIntegrator const&) { return SeenLight{}; },
+        [](PathIntegrator const&) { return SeenLight{}; },
+        [&](auto const& integrator) {
+            return radiance(integrator, path.c, samples_[i].camera.ray, path.aov);
+        });
 }
 
 void CameraBatch::finish(std::size_t i, PathTrace* trace) {
-    Sample& s = samples_[i];
-    bool const wants_aovs = film_.has_aovs();
-    s.seen += shadows_.arrived(i);
-    Vec3 const value = s.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
-                                 : sensor_value(job_, s.seen, s.camera.weight, s.lambda,
-                                                wants_aovs ? &aovs_[i].light : nullptr);
-    if (trace) trace->ends(s.seen, value, s.filter_weight);
-    if (wants_aovs) film_.add_aov(s.x, s.y, s.pass, aovs_[i], s.filter_weight);
+    Sample const& s = samples_[i];
+    PathInFlight& path = paths_[i];
+    path.seen += shadows_.arrived(i);
+    Vec3 const value = path.c.tainted ? Vec3{std::numeric_limits<float>::quiet_NaN()}
+                                      : sensor_value(job_, path.seen, s.camera.weight, path.c.lambda,
+                                                     path.aov ? &path.aov->light : nullptr);
+    if (trace) trace->ends(path.seen, value, s.filter_weight);
+    if (path.aov) film_.add_aov(s.x, s.y, s.pass, *path.aov, s.filter_weight);
     if (!film_.add(s.x, s.y, value, s.filter_weight)) ++dropped_;
 }
 

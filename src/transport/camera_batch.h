@@ -1,6 +1,7 @@
 // Camera samples on their way together: their first rays are traced side by side, and so are those to the lights they sample.
 #pragma once
 
+#include "path_in_flight.h"
 #include "photon_maps.h"
 #include "shadow_queue.h"
 #include "transport/render_pass.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace nephroid {
 
@@ -29,27 +31,23 @@ class CameraBatch {
         int x = 0, y = 0;
         std::uint64_t pass = 0;
         PathSampler sampler;
-        Wavelengths lambda;
         Vec2 at{0, 0};  // on the film, pixels
         float filter_weight = 1;
         CameraRay camera;
-        SeenLight seen;
-        bool tainted = false;
     };
 
-    void follow(std::size_t i, RawHit const& first, PathTrace* trace);
+    void trace_camera_rays();
+    void follow(std::size_t i);
     void finish(std::size_t i, PathTrace* trace);
 
     RenderJob const& job_;
-    PassWork const& work_;
     Film& film_;
     RayStats& stats_;
-    HemisphereSampling hemisphere_;
-    LightSampling lights_;
     std::uint64_t dropped_ = 0;
     std::size_t size_ = 0;
-    std::array<Sample, ShadowQueue::kPaths> samples_;
-    std::array<AovSample, ShadowQueue::kPaths> aovs_;
+    std::array<Sample, kMostInStep> samples_;
+    std::array<AovSample, kMostInStep> aovs_;
+    std::vector<PathInFlight> paths_;  // as many
     NearestPhotons nearest_;
     ShadowQueue shadows_;
 };

@@ -1,28 +1,63 @@
-// Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling; PBRT 4th ed., 13.4.
-#include "walk.h"
+// Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling; PBRT 4th ed., 13.4. Paths of a batch go in step, a
+// vertex at a time: each is what it would be by itself, but their numbers are drawn together and their rays are traced side by side.
+#include "path_in_flight.h"
+
+#include <algorithm>
+#include <array>
 
 namespace nephroid {
 
-SeenLight radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov) {
+namespace {
+
+/// The same numbers for all: those of one use at the vertices where the paths are.
+void draw(std::span<PathInFlight*> paths, std::uint32_t use, Vec2 Drawn::*numbers) {
+    std::array<PathSampler*, kMostInStep> samplers;
+    std::array<Vec2, kMostInStep> drawn;
+    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
+    draw_2d({samplers.data(), paths.size()}, dimension::of(paths.front()->walk.vertex, use), drawn.data());
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i]->v.drawn.*numbers = drawn[i];
+}
+
+/// Those for which `goes_on` is true, in their order.
+template <class F>
+std::span<PathInFlight*> keep(std::span<PathInFlight*> paths, F goes_on) {
+    std::size_t n = 0;
+    for (PathInFlight* path : paths)
+        if (goes_on(*path)) paths[n++] = path;
+    return paths.first(n);
+}
+
+}  // namespace
+
+void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
     EmissionWeight const weight = !p.sample_lights    ? EmissionWeight::All
                                   : p.sample_bsdf_mis ? EmissionWeight::Mis
                                                       : EmissionWeight::SpecularOnly;
-    SeenLight seen;
-    Walk walk = Walk::from_camera(c, ray);
-    Vertex v;
-    for (;;) {
+    auto const most = static_cast<std::uint32_t>(p.max_depth);
+    while (!paths.empty()) {
         // The ray finds a surface, and what that surface (or the environment) emits.
-        if (!advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()])) break;
-        bool const scatters = prepare(c, walk, v);
-        if (aov) record_first_hit(c, walk, scatters, v, aov);
-        // A path of max_depth bounces has max_depth + 1 segments; emission at its end is in already.
-        if (!scatters || walk.vertex >= static_cast<std::uint32_t>(p.max_depth)) break;
+        paths = keep(paths, [&](PathInFlight& path) {
+            auto& [c, walk, met, v, seen, aov] = path;
+            if (!advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()])) return false;
+            bool const scatters = prepare(c, walk, v);
+            if (aov) record_first_hit(c, walk, scatters, v, aov);
+            // A path of max_depth bounces has max_depth + 1 segments; emission at its end is in already.
+            return scatters && walk.vertex < most;
+        });
+        if (paths.empty()) return;
         // Next-event estimation: one more segment, aimed at a light.
-        if (p.sample_lights && !v.is.delta) add_direct(c, walk, v, p.sample_bsdf_mis, seen);
+        if (p.sample_lights) {
+            draw(paths, dimension::kLight, &Drawn::light);
+            for (PathInFlight* path : paths)
+                if (!path->v.is.delta)
+                    add_direct(path->c, path->walk, path->v, p.sample_bsdf_mis, path->seen);
+        }
         // The path goes on by scattering, and ends by chance.
-        if (!scatter(c, walk, v) || !survives(c, walk, p.roulette)) break;
+        draw(paths, dimension::kDirection, &Drawn::direction);
+        paths = keep(paths, [&](PathInFlight& path) {
+            return scatter(path.c, path.walk, path.v) && survives(path.c, path.walk, p.roulette);
+        });
     }
-    return seen;
 }
 
 }  // namespace nephroid

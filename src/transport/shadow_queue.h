@@ -3,6 +3,7 @@
 #pragma once
 
 #include "transport/light_class.h"
+#include "walk.h"
 #include "world/world.h"
 
 #include <array>
@@ -13,19 +14,15 @@ namespace nephroid {
 
 class ShadowQueue {
   public:
-    static constexpr std::size_t kPaths = 64;
-
     ShadowQueue(World const& world, RayStats& stats) : world_(world), stats_(stats) {}
 
-    /// What comes from here on belongs to that path, below kPaths.
-    void begin_path(std::size_t path) {
-        path_ = static_cast<std::uint32_t>(path);
-        arrived_[path] = {};
-    }
-    /// `light` arrives unless something solid is between the path's vertex of that number, `from`, and the light, `to`.
-    void wait(LightClass as, Spectrum light, SurfaceHit const& from, LightSample const& to,
-              std::uint32_t vertex) {
-        std::size_t const i = add(as, light, false);
+    /// Nothing has arrived at any path.
+    void begin() { arrived_ = {}; }
+    /// `light` arrives at a path, below kMostInStep, unless something solid is between its vertex of that number, `from`, and the light,
+    /// `to`.
+    void wait(std::uint32_t path, LightClass as, Spectrum light, SurfaceHit const& from,
+              LightSample const& to, std::uint32_t vertex) {
+        std::size_t const i = add(path, as, light, false);
         Open& open = open_[vertex < kDepths ? vertex : kDepths - 1];
         open.entry[open.ends.size()] = static_cast<std::uint16_t>(i);
         open.ends.add(from, to);
@@ -33,8 +30,8 @@ class ShadowQueue {
         if (size_ == kMost) settle();
     }
     /// `light` is known to arrive.
-    void arrive(LightClass as, Spectrum light) {
-        add(as, light, true);
+    void arrive(std::uint32_t path, LightClass as, Spectrum light) {
+        add(path, as, light, true);
         if (size_ == kMost) settle();
     }
     /// Traces what is left. Sums are by path and in the order in which it was put here, whatever else is in the queue.
@@ -63,10 +60,10 @@ class ShadowQueue {
     };
     // From a path's first vertex rays go much the same way; from the others it is as well to keep those of one number together.
     static constexpr std::size_t kDepths = 3;
-    static constexpr std::size_t kMost = 4 * kPaths;
+    static constexpr std::size_t kMost = 4 * kMostInStep;
 
-    std::size_t add(LightClass as, Spectrum light, bool arrives) {
-        entries_[size_] = {light, path_, as};
+    std::size_t add(std::uint32_t path, LightClass as, Spectrum light, bool arrives) {
+        entries_[size_] = {light, path, as};
         arrives_[size_] = arrives;
         return size_++;
     }
@@ -78,12 +75,11 @@ class ShadowQueue {
 
     World const& world_;
     RayStats& stats_;
-    std::uint32_t path_ = 0;
     std::size_t size_ = 0;
     std::array<Entry, kMost> entries_;
     std::array<bool, kMost> arrives_;
     std::array<Open, kDepths> open_;
-    std::array<SeenLight, kPaths> arrived_;
+    std::array<SeenLight, kMostInStep> arrived_;
 };
 
 }  // namespace nephroid

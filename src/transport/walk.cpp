@@ -201,6 +201,13 @@ bool prepare(PathContext& c, Walk& walk, Vertex& v) {
 
 namespace {
 
+/// Two numbers for one use at the vertex; `ahead` where they have been drawn.
+Vec2 number_2d(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t use, Vec2 ahead) {
+    if (v.drawn_ahead) return ahead;
+    c.sampler.at(dimension::of(walk.vertex, use));
+    return c.sampler.next_2d();
+}
+
 /// A light sample at a vertex, and what it brings there.
 struct DirectLight {
     LightSample from;
@@ -212,8 +219,7 @@ struct DirectLight {
 bool choose_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, DirectLight& direct) {
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
     double const u_choose = c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
-    c.sampler.at(dimension::of(walk.vertex, dimension::kLight));
-    Vec2 const u = c.sampler.next_2d();
+    Vec2 const u = number_2d(c, walk, v, dimension::kLight, v.drawn.light);
     auto const light = c.world.sample_light(receiver_of(v), c.lights, u_choose, u, c.lambda);
     if (!light || light->radiance.is_black()) return false;
     Vec3 const wi_local = v.frame.to_local(light->wi);
@@ -255,9 +261,9 @@ void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, See
     if (!c.shadows) {
         seen[as] += walk.beta * arriving(c, walk, v, direct);
     } else if (c.trace || c.world.passes_partly()) {
-        c.shadows->arrive(as, walk.beta * arriving(c, walk, v, direct));
+        c.shadows->arrive(c.path, as, walk.beta * arriving(c, walk, v, direct));
     } else {
-        c.shadows->wait(as, walk.beta * direct.light, v.hit, direct.from, walk.vertex);
+        c.shadows->wait(c.path, as, walk.beta * direct.light, v.hit, direct.from, walk.vertex);
     }
 }
 
@@ -301,8 +307,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
     }
     Vec2 u{0, 0};
     if (!v.is.delta) {
-        c.sampler.at(dimension::of(walk.vertex, dimension::kDirection));
-        u = c.sampler.next_2d();
+        u = number_2d(c, walk, v, dimension::kDirection, v.drawn.direction);
     }
     auto const s = sample(v.bsdf, v.wo_local, lobe, u, walk.mode, c.hemisphere);
     if (!s && c.trace) c.trace->absorbed();

@@ -60,7 +60,8 @@ struct PathContext {
     bool tainted = false;                 // a throughput was not a number: the sample does not count
     PathTrace* trace = nullptr;           // writes down what happens, where somebody asked for it
     RawHit const* camera_hit = nullptr;   // what the camera's ray meets, where that is known
-    ShadowQueue* shadows = nullptr;       // where sampled light may wait for its shadow ray
+    ShadowQueue* shadows = nullptr;       // where sampled light may wait for its shadow ray, …
+    std::uint32_t path = 0;               // … as this path's
 
     /// The same for a branch of the path, which has numbers of its own, and is not written down.
     [[nodiscard]] PathContext with(PathSampler& other) const {
@@ -98,6 +99,14 @@ struct Walk {
     }
 };
 
+/// How many paths go in step at most.
+inline constexpr std::size_t kMostInStep = 64;
+
+/// Numbers of a vertex that were drawn ahead, together with those of other paths.
+struct Drawn {
+    Vec2 light, direction;
+};
+
 /// A vertex: where the ray met a surface (advance), and how it scatters there (prepare). Filled in place: it is too big to be
 /// handed around.
 struct Vertex {
@@ -107,6 +116,8 @@ struct Vertex {
     Vec3 wo_local{0, 0, 1};  // back along the path, away from the surface
     Bsdf bsdf;
     BsdfTraits is;  // of bsdf
+    bool drawn_ahead = false;
+    Drawn drawn;  // if so
 };
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
@@ -156,8 +167,7 @@ Spectrum transmittance(PathContext const& c, Interiors const& interiors, float d
 /// What the layers of the first hit record.
 void record_first_hit(PathContext& c, Walk const& walk, bool scatters, Vertex const& v, AovSample* aov);
 
-// The integrators: radiance along a camera ray, by classes of paths.
-SeenLight radiance(PathIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
+// The integrators: radiance along a camera ray, by classes of paths. (That of many paths in step: path_in_flight.h.)
 SeenLight radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 SeenLight radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 SeenLight radiance(PhotonMapIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);

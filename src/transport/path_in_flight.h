@@ -1,0 +1,23 @@
+// A path from the camera, between two vertices or at one: what the integrator that follows many of them in step keeps of each.
+#pragma once
+
+#include "walk.h"
+
+#include <span>
+
+namespace nephroid {
+
+struct PathInFlight {
+    PathContext c;
+    Walk walk;
+    RawHit met;  // what the walk's ray meets
+    Vertex v;
+    SeenLight seen;
+    AovSample* aov = nullptr;  // of the first hit, where somebody asks
+};
+
+/// Radiance along the camera rays of `paths`, which is in their `seen` (and c.shadows) in the end. All are at their first ray, whose hit is
+/// in `met`. The list is used up.
+void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths);
+
+}  // namespace nephroid
