@@ -79,22 +79,20 @@ void CameraBatch::add(int x, int y, std::uint64_t pass, std::uint64_t sample) {
 }
 
 void CameraBatch::run(PathTrace* trace) {
-    trace_camera_rays();
     shadows_.begin();
+    std::array<PathInFlight*, kMostInStep> going;
     for (std::size_t i = 0; i < size_; ++i) {
         PathInFlight& path = paths_[i];
         path.c.tainted = false;
         path.c.trace = trace;
         path.seen = {};
         if (path.aov) *path.aov = {};
+        path.walk = Walk::from_camera(path.c, samples_[i].camera.ray);
+        going[i] = &path;
         if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
     }
+    trace_rays(job_.world(), RayKind::Camera, {going.data(), size_}, stats_);
     if (auto const* p = std::get_if<PathIntegrator>(&job_.settings().integrator)) {
-        std::array<PathInFlight*, kMostInStep> going;
-        for (std::size_t i = 0; i < size_; ++i) {
-            paths_[i].walk = Walk::from_camera(paths_[i].c, samples_[i].camera.ray);
-            going[i] = &paths_[i];
-        }
         follow_paths(*p, {going.data(), size_});
     } else {
         for (std::size_t i = 0; i < size_; ++i) follow(i);
@@ -102,17 +100,6 @@ void CameraBatch::run(PathTrace* trace) {
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);
     size_ = 0;
-}
-
-void CameraBatch::trace_camera_rays() {
-    std::array<RawHit, kLanes> hits;
-    for (std::size_t begin = 0; begin < size_; begin += kLanes) {
-        std::size_t const n = std::min(kLanes, size_ - begin);
-        RayPacket rays;
-        for (std::size_t i = 0; i < n; ++i) rays.set(i, samples_[begin + i].camera.ray, kInfinity);
-        job_.world().intersect(rays, stats_, hits);
-        for (std::size_t i = 0; i < n; ++i) paths_[begin + i].met = hits[i];
-    }
 }
 
 void CameraBatch::follow(std::size_t i) {

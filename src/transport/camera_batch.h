@@ -36,7 +36,6 @@ class CameraBatch {
         CameraRay camera;
     };
 
-    void trace_camera_rays();
     void follow(std::size_t i);
     void finish(std::size_t i, PathTrace* trace);
 

@@ -29,6 +29,20 @@ std::span<PathInFlight*> keep(std::span<PathInFlight*> paths, F goes_on) {
 
 }  // namespace
 
+void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats) {
+    std::array<RawHit, kLanes> hits;
+    for (std::size_t begin = 0; begin < paths.size(); begin += kLanes) {
+        auto const group = paths.subspan(begin, std::min(kLanes, paths.size() - begin));
+        RayPacket rays;
+        for (std::size_t i = 0; i < group.size(); ++i) rays.set(i, group[i]->walk.ray, kInfinity);
+        world.intersect(rays, kind, stats, hits);
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            group[i]->met = hits[i];
+            group[i]->walk.met = &group[i]->met;
+        }
+    }
+}
+
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
     EmissionWeight const weight = !p.sample_lights    ? EmissionWeight::All
                                   : p.sample_bsdf_mis ? EmissionWeight::Mis
@@ -57,6 +71,8 @@ void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
         paths = keep(paths, [&](PathInFlight& path) {
             return scatter(path.c, path.walk, path.v) && survives(path.c, path.walk, p.roulette);
         });
+        if (!paths.empty())
+            trace_rays(paths.front()->c.world, RayKind::Bounce, paths, paths.front()->c.stats);
     }
 }
 

@@ -16,6 +16,9 @@ struct PathInFlight {
     AovSample* aov = nullptr;  // of the first hit, where somebody asks
 };
 
+/// Traces the rays of the walks side by side: advance() finds what they meet.
+void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats);
+
 /// Radiance along the camera rays of `paths`, which is in their `seen` (and c.shadows) in the end. All are at their first ray, whose hit is
 /// in `met`. The list is used up.
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths);
