@@ -287,16 +287,13 @@ SeenBox seen_box(LightTable const& lights, LightEntry const& e, Receiver const& 
     return SeenBox(lights.boxes[e.more], to, how, lights.emitters[e.emitter].two_sided);
 }
 
-}  // namespace
-
-namespace {
-
 /// Any but those that sample_emitter draws itself. Out of line: its frame is large.
 [[gnu::noinline]] bool sample_any(LightTable const& lights, WorldParts const& parts, LightEntry const& e,
                                   Receiver const& to, ShapeSampling how, Vec2 u, LightSample& s) {
-    if (e.flat() && e.picture == LightEntry::kNone)
-        return sample(FlatEmitter(lights, e, to, how), nullptr, to, u, s);
-    return sample_any(lights, parts, e, to, how, u, s);
+    if (e.shape == LightShape::Box) return seen_box(lights, e, to, how).sample(u, s);
+    Distribution2D const* picture = picture_of(lights, e, how);
+    return with_emitter(lights, parts, e, to, how,
+                        [&](auto const& emitter) { return sample(emitter, picture, to, u, s); });
 }
 
 }  // namespace
