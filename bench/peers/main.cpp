@@ -39,6 +39,8 @@ BenchScene const kScenes[] = {
 PeerScene read_bench_scene(BenchScene const& s) {
     Scene scene = s.file ? read_scene(std::filesystem::path(NEPHROID_SOURCE_DIR) / s.file)
                          : bench::bumpy_ball_under_sky(512);
+    // What was ignored in a scene of ours would be missing in everybody's.
+    if (!scene.notes.empty()) throw Error(ErrorKind::Input, scene.notes.front().text);
     if (s.size.x > 0) scene.settings.film.resolution = s.size;
     return make_peer_scene(std::move(scene));
 }
