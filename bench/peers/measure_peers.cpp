@@ -82,6 +82,15 @@ double median(std::vector<double> v) {
     return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
 }
 
+std::vector<double> efficiencies(Result const& r) {
+    std::vector<double> each;
+    for (std::size_t i = 0; i < r.seconds.size(); ++i) {
+        if (!(r.errors[i] > 0)) return {};
+        each.push_back(1 / (r.errors[i] * r.seconds[i]));
+    }
+    return each;
+}
+
 SceneResult measure_scene(std::string const& name, PeerScene const& peer,
                           std::vector<Renderer const*> const& renderers, Plan const& plan, bool equal_samples,
                           std::filesystem::path const& scratch) {
@@ -134,8 +143,11 @@ SceneResult measure_scene(std::string const& name, PeerScene const& peer,
             r.result.errors.push_back(error_of(r, done.image, r.result.samples));
             if (r.renderer->key == "nephroid-sppm") pictures[&r].push_back(rgb_of(done.image));
             if (i == 0) r.result.picture = rgb_of(done.image);
-            if (equal_samples && r.renderer->path_tracer)
-                r.result.seconds64.push_back(r.render({64, static_cast<std::uint64_t>(i) + 1}).seconds);
+            if (equal_samples && !r.povray()) {
+                auto const timed = r.render({64, static_cast<std::uint64_t>(i) + 1, true});
+                r.result.seconds64.push_back(timed.seconds);
+                r.result.process_seconds64.push_back(timed.process_seconds);
+            }
         });
     }
     auto const ours = std::find_if(runners.begin(), runners.end(),

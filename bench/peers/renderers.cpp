@@ -1,4 +1,5 @@
 #include "renderers.h"
+#include "yardsticks.h"
 
 #include "image/read.h"
 #include "math/error.h"
@@ -74,18 +75,20 @@ bool runs(std::string const& program) {
            std::system(("command -v " + quoted(program) + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-Renderer ours(Programs const& p, std::string key, std::string name, std::string options, bool path_tracer) {
-    auto prepare = [p, options](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
+Renderer ours(Programs const& p, std::string key, std::string name, std::string options, bool path_tracer,
+              std::string yardstick = "") {
+    auto prepare = [p, options, yardstick](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
         fs::path const scene = write_pbrt_scene(peer, {folder, 16, 1});
         return [=](RenderJob const& job) {
             auto const f = start(fmt::format("{} render {} --quiet --float --stats stats.json -o out.exr "
-                                             "--spp {} --seed {} --threads {} {}",
+                                             "--spp {} --seed {} --threads {} {} {}",
                                              quoted(p.nephroid), quoted(scene.string()), job.samples,
-                                             job.seed, p.threads, options),
+                                             job.seed, p.threads, options, job.yardstick ? yardstick : ""),
                                  folder);
-            auto const stats = nlohmann::json::parse(contents(folder / "stats.json"));
-            return Rendered{read_image(folder / "out.exr"), stats["seconds"]["render"].get<double>(),
-                            f.seconds};
+            auto const seconds = nlohmann::json::parse(contents(folder / "stats.json"))["seconds"];
+            // With its trees, as those of Cycles are in what that says.
+            return Rendered{read_image(folder / "out.exr"),
+                            seconds["compile"].get<double>() + seconds["render"].get<double>(), f.seconds};
         };
     };
     return {std::move(key), std::move(name), answer(quoted(p.nephroid) + " --version"), path_tracer, prepare};
@@ -108,7 +111,7 @@ Renderer cycles(Programs const& p) {
         };
     };
     std::string const said = answer(quoted(p.blender) + " --version");
-    return {"cycles", "Cycles", said.substr(0, said.find('\n')), true, prepare};
+    return {"cycles", kCycles, said.substr(0, said.find('\n')), true, prepare};
 }
 
 /// Samples of a pixel are what its quality is multiplied by here.
@@ -126,7 +129,7 @@ Renderer povray(Programs const& p) {
         };
     };
     std::string const said = answer(quoted(p.povray) + " --version");
-    return {"povray", "POV-Ray", "POV-Ray" + after(said, "POV-Ray"), false, prepare};
+    return {"povray", kPovray, "POV-Ray" + after(said, "POV-Ray"), false, prepare};
 }
 
 /// A path tracer whose program the user names: `write` makes its scene for a render, `options` are what its program is called
@@ -168,9 +171,9 @@ Renderer tungsten(Programs const& p) {
 
 std::vector<Renderer> find_renderers(Programs const& p) {
     std::vector<Renderer> found{
-        ours(p, "nephroid", "nephroid path, rgb", "--integrator path --color rgb", true),
-        ours(p, "nephroid-spectral", "nephroid path, spectral", "--integrator path --color spectral", true),
-        ours(p, "nephroid-sppm", "nephroid sppm, rgb", "--integrator sppm --color rgb", false)};
+        ours(p, "nephroid", kPath, "--integrator path --color rgb", true),
+        ours(p, "nephroid-spectral", kSpectral, "--integrator path --color spectral", true),
+        ours(p, "nephroid-sppm", kSppm, "--integrator sppm --color rgb", false, kSppmYardstick)};
     auto const add = [&](char const* name, std::string const& program, Renderer (*make)(Programs const&),
                          bool asked) {
         if (runs(program))
