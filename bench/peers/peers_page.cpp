@@ -65,6 +65,8 @@ void show_targets(Page& page, std::vector<SceneResult> const& scenes) {
         kSppmYardstick));
 }
 
+/// Why its means may be others, in the scenes where they are.
+@@
 void means(Page& page, std::vector<SceneResult> const& scenes) {
     std::vector<std::vector<std::string>> rows;
     for (SceneResult const& s : scenes) {
@@ -82,9 +84,9 @@ void means(Page& page, std::vector<SceneResult> const& scenes) {
     }
     page.section("Is it the same picture?");
     page.text(
-        "Means of the references, beside that of our path tracer's; within 5% they agree. Lost caustics, "
-        "which a path tracer "
-        "does not find in the time of a reference, make a mean too small.");
+        "Means of the references, beside that of our path tracer's; within 5% they agree. A path tracer that "
+        "differs makes the program end with exit code 1. POV-Ray is here to show how far it gets:");
+    page.list({kWhatPovrayLacks.begin(), kWhatPovrayLacks.end()});
     if (!rows.empty()) page.table({"scene", "renderer", "mean", "off by", ""}, rows);
 }
 
@@ -159,26 +161,32 @@ void write_peers_page(std::filesystem::path const& folder, std::vector<SceneResu
     std::vector<std::string> versions;
     for (Renderer const& r : renderers) versions.push_back(r.name + ": " + r.version);
     page.list(versions);
-    page.text(
-        fmt::format("Every renderer has the same triangles, balls, rgb reflectances, radiances, pinhole, "
-                    "pixels and bounces, box filter, and as many "
-                    "threads. Samples of a pixel are chosen so that a render takes {} s; then come {} "
-                    "rounds, in each of which every renderer renders "
-                    "once, under a new seed. Errors are relMSE against a picture of the renderer's *own*, of "
-                    "{} times the samples, so that what "
-                    "renderers mean differently does not count; a path tracer's error is divided by 1 + n / "
-                    "n_reference, the part of it that is its "
-                    "reference's. For `sppm` the reference is our path tracer's where the noise of that is "
-                    "below a tenth of the error, else "
-                    "its own, which hides what bias the two share. Render times are what a renderer says "
-                    "itself, without reading and "
-                    "building (Cycles: the call of its renderer, which includes the building of its trees); "
-                    "process times are from start to exit. "
-                    "Medians, with the range. "
-                    "POV-Ray is no path tracer: its time is that of a final picture of its manual's "
-                    "settings, its whole process, and its "
-                    "error is against its own picture of four times the counts; samples it has none.",
-                    number(plan.seconds), plan.repetitions, number(plan.reference)));
+    page.section("How it is measured");
+    page.list(
+        {"**The same scene**: every renderer has the same triangles, balls, rgb reflectances, radiances, "
+         "pinhole, pixels and bounces, a box filter, and as many threads.",
+         fmt::format("**Rounds**: samples of a pixel are chosen so that a render takes {} s. Then come {} "
+                     "rounds, in each of which every renderer renders once, under a new seed. Numbers are "
+                     "medians of the rounds, with their range.",
+                     number(plan.seconds), plan.repetitions),
+         "**Times** of a render are what a renderer says itself, with the building of its trees, without its "
+         "start and reading (Cycles: the call of its renderer); those of a process are from start to exit.",
+         fmt::format(
+             "**Errors** are relMSE, the mean of (x − r)² / (r² + 0.01), against a picture r of the "
+             "renderer's *own*, of {0} times the samples, so that what renderers mean differently does not "
+             "count. That picture has noise of its own: where the variance of n samples is V / n, the "
+             "difference has V / n + V / ({0} n). So what is measured is divided by 1 + 1 / {0}, that is "
+             "1 + n / n_reference, to give the error against a picture without noise.",
+             number(plan.reference)),
+         "**Caustics** that a path tracer meets by rare chance are missing in most pixels of its reference "
+         "too, and a pixel where both miss them counts as right. There the errors of path tracers are "
+         "understated, and what others gain over them is as well.",
+         "**sppm** is no average of independent samples: nothing is divided. Its reference is our path "
+         "tracer's, where that has noise below a tenth of the error, and else its own, which hides what bias "
+         "the two share; the table says which.",
+         "**POV-Ray** is no path tracer, and has no samples to count. Its time is its whole process, for a "
+         "final picture with its manual's settings; its error is against its own of four times the "
+         "counts."});
     show_targets(page, scenes);
     means(page, scenes);
     for (SceneResult const& s : scenes) show(page, s);
