@@ -36,12 +36,13 @@ BenchScene const kScenes[] = {
     {"interior", "bench/peers/scenes/interior.pbrt", {0, 0}, false, false},
 };
 
-PeerScene read_bench_scene(BenchScene const& s) {
+PeerScene read_bench_scene(BenchScene const& s, Vec2i size) {
     Scene scene = s.file ? read_scene(std::filesystem::path(NEPHROID_SOURCE_DIR) / s.file)
                          : bench::bumpy_ball_under_sky(512);
     // What was ignored in a scene of ours would be missing in everybody's.
     if (!scene.notes.empty()) throw Error(ErrorKind::Input, scene.notes.front().text);
-    if (s.size.x > 0) scene.settings.film.resolution = s.size;
+    if (size == Vec2i{0}) size = s.size;
+    if (size.x > 0) scene.settings.film.resolution = size;
     return make_peer_scene(std::move(scene));
 }
 
@@ -77,7 +78,8 @@ int run(int argc, char** argv) {
         "  peers --quick /tmp/page                                  # does it work here?\n"
         "  peers --scenes cornell --renderers nephroid,cycles /tmp/page\n"
         "  peers --pbrt ~/pbrt-v4/build/pbrt --threads 8            # one more, which is not packaged\n"
-        "  peers --scenes cup --keep /tmp/cup /tmp/page             # what each renderer was given, and said\n"
+        "  peers --scenes cup --keep /tmp/cup /tmp/page             # what each renderer was given, and "
+        "said\n"
         "The exit code is 0 when everything was rendered; 1 when a renderer failed, or when a path tracer's "
         "mean is more than 5%\n"
         "from ours, which is another picture. A target that is not met is no error: the page says so.");
@@ -88,24 +90,25 @@ int run(int argc, char** argv) {
     Plan plan;
     std::vector<std::string> scenes, only;
     bool quick = false;
+    Vec2i size{0};
+    std::string size_text;
     std::string folder = std::string(NEPHROID_SOURCE_DIR) + "/docs/performance", keep;
     app.add_option("--blender", programs.blender, "Blender, for Cycles (default: blender)");
     app.add_option("--povray", programs.povray, "POV-Ray (default: povray)");
     app.add_option("--pbrt", programs.pbrt, "a pbrt-v4 binary; its scenes are tested, its runs are not");
-    app.add_option("--mitsuba", programs.mitsuba, "a Mitsuba 3 binary; its scenes are tested, its runs are not");
-    app.add_option("--tungsten", programs.tungsten, "a Tungsten binary; its scenes are tested, its runs are not");
+    app.add_option("--mitsuba", programs.mitsuba,
+                   "a Mitsuba 3 binary; its scenes are tested, its runs are not");
+    app.add_option("--tungsten", programs.tungsten,
+                   "a Tungsten binary; its scenes are tested, its runs are not");
     app.add_option("--threads", programs.threads, "threads of each (default: all)")
         ->check(CLI::Range(1, 1024));
     auto* seconds = app.add_option("--seconds", plan.seconds, "that a measured render takes (default 4)")
                         ->check(CLI::PositiveNumber);
     auto* repetitions =
         app.add_option("--repetitions", plan.repetitions, "rounds (default 5)")->check(CLI::Range(1, 1000));
-    app.add_option("--scenes", scenes,
-                   "only these, by commas")
-        ->delimiter(',');
-    app.add_option("--renderers", only,
-                   "only these, by commas")
-        ->delimiter(',');
+    app.add_option("--scenes", scenes, "only these, by commas")->delimiter(',');
+    app.add_option("--renderers", only, "only these, by commas")->delimiter(',');
+    app.add_option("--size", size_text, "WxH of every picture, for a try; nothing is bridged then");
     app.add_flag("--quick", quick, "1 second, 3 rounds, small references: some minutes");
     app.add_option("--keep", keep, "work in this folder, and leave scenes, pictures and logs there");
     app.add_option("folder", folder, "where peers.md goes (default: docs/performance)");
@@ -114,6 +117,13 @@ int run(int argc, char** argv) {
         if (seconds->empty()) plan.seconds = 1;
         if (repetitions->empty()) plan.repetitions = 3;
         plan.reference = 6;
+    }
+    if (!size_text.empty()) {
+        char end = 0;
+        if (std::sscanf(size_text.c_str(), "%dx%d%c", &size.x, &size.y, &end) != 2 || size.x < 2 ||
+            size.y < 2 || size.x > 10000 || size.y > 10000)
+            throw Error(ErrorKind::Input,
+                        "--size " + size_text + ": give it as 160x120, from 2 to 10000 each");
     }
     std::vector<std::string> known;
     for (BenchScene const& s : kScenes) known.emplace_back(s.name);
@@ -136,7 +146,8 @@ int run(int argc, char** argv) {
             if (r.key == "nephroid-spectral" && !s.equal_samples) continue;
             fit.push_back(&r);
         }
-        results.push_back(measure_scene(s.name, read_bench_scene(s), fit, plan, s.equal_samples, scratch));
+        results.push_back(
+            measure_scene(s.name, read_bench_scene(s, size), fit, plan, s.equal_samples, scratch));
         write_peers_page(folder, results, renderers, plan, programs.threads, quick);  // what is done is done
     }
     if (keep.empty()) std::filesystem::remove_all(scratch);

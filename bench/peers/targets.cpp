@@ -41,7 +41,7 @@ void equal_samples(std::vector<Target>& t, SceneResult const& s) {
 /// Theirs there / Cycles' there x Cycles' here / ours here. Whole processes of ours, as theirs are.
 void bridged(std::vector<Target>& t, SceneResult const& s) {
     Result const *us = find(s, kPath), *sppm = find(s, kSppm), *them = find(s, kCycles);
-    if (!them) return;
+    if (!them || s.resolution != kYardstickSize) return;
     for (Bridge const& bridge : kBridges) {
         if (s.scene != bridge.scene) continue;
         for (Yardstick const& y : kYardsticks) {

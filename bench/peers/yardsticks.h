@@ -3,6 +3,8 @@
 // processors favour nobody.
 #pragma once
 
+#include "math/vec.h"
+
 #include <array>
 
 namespace nephroid::peers {
@@ -27,6 +29,7 @@ inline constexpr std::array kYardsticks{
     Yardstick{"cornell_glass", "Tungsten progressive photon map", 13.9, 2.5, true},
     Yardstick{"cornell_glass", "pbrt-v4 sppm", 55.6, 10, true},
 };
+inline constexpr Vec2i kYardstickSize{400, 400};
 /// Of Cycles there (Blender 3.4.1), of its render alone.
 struct Bridge {
     char const* scene;

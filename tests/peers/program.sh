@@ -24,7 +24,7 @@ script lazy 'exit 0'
 run() { # run NAME OPTIONS…: into $work/NAME
     local name=$1
     shift
-    "$peers" --scenes cornell --renderers nephroid,pbrt --seconds 0.05 --repetitions 2 --threads 1 "$@" "$work/$name.page" \
+    "$peers" --scenes cornell --renderers nephroid,pbrt --size 40x40 --seconds 0.1 --repetitions 2 --threads 1 "$@" "$work/$name.page" \
         >"$work/$name.out" 2>"$work/$name.err"
 }
 wrong() { # wrong NAME WORDS: exit code 1, and what it says at the end
@@ -44,11 +44,11 @@ grep -q "out of colours" "$work/broken.err" || fail "its last words are not pass
 wrong lazy "cornell: pbrt-v4 failed"
 run missing --pbrt "$work/missing" || fail "a renderer that is not there is left out, not an error"
 grep -q "pbrt is left out: there is no program" "$work/missing.err" || fail "what is left out is not said"
-for option in "--scenes cornel" "--renderers pbrd" "--threads 0" "--seconds -1"; do
+for option in "--scenes cornel" "--renderers pbrd" "--threads 0" "--seconds -1" "--size 40" "--size 40x40x40"; do
     # shellcheck disable=SC2086
     ! "$peers" $option "$work/none" >/dev/null 2>"$work/none.err" || fail "$option is taken"
     [[ ! -e $work/none ]] || fail "$option leaves a page"
 done
-"$peers" --scenes cornel "$work/none" 2>&1 | grep -q "there are cornell," || fail "names are not listed"
+{ "$peers" --scenes cornel "$work/none" 2>&1 || true; } | grep -q "there are cornell," || fail "names are not listed"
 "$peers" --help | grep -q "exit code" || fail "--help does not teach exit codes"
 exit "$bad"

@@ -21,11 +21,11 @@ Result result(char const* name, std::vector<double> seconds, std::vector<double>
     r.samples = samples;
     r.seconds = r.process_seconds = r.seconds64 = r.process_seconds64 = std::move(seconds);
     r.errors = std::move(errors);
-    r.picture = Image(PixelFormat::Float, 8, 6, {"R", "G", "B"});
+    r.picture = Image(PixelFormat::Float, 400, 400, {"R", "G", "B"});
     return r;
 }
 SceneResult scene(char const* name, std::vector<Result> results) {
-    return {name, "", {8, 6}, 12, 1, std::move(results)};
+    return {name, "", {400, 400}, 12, 1, std::move(results)};
 }
 Target target(std::vector<Target> const& all, std::string const& what) {
     for (Target const& t : all)
@@ -108,6 +108,10 @@ TEST_CASE("bridged rows scale what others took by Cycles, which is on both machi
     CHECK_FALSE(target(all, "time of Cycles / ours").bridged);
     // Without Cycles there is no bridge.
     for (Target const& t : targets({scene("cornell_glass", {us, sppm})})) CHECK_FALSE(t.bridged);
+    // Nor at another size than theirs.
+    auto small = scene("cornell_glass", {us, them, sppm});
+    small.resolution = {200, 200};
+    for (Target const& t : targets({small})) CHECK_FALSE(t.bridged);
     // cornell has its own.
     CHECK(target(targets({scene("cornell", {us, them})}), "Mitsuba").rounds[0] ==
           doctest::Approx(3.6 / 8.3 * 20.2 / 4));
