@@ -109,7 +109,7 @@ SceneResult measure_scene(std::string const& name, PeerScene const& peer,
             r.render = renderer->prepare(peer, folder);
             // POV-Ray has a quality, and no seconds that it could be asked for.
             r.result.samples = r.povray() ? 1 : calibrate(r, plan.seconds);
-            r.reference_samples = r.povray() ? 4 : static_cast<int>(r.result.samples * plan.reference);
+            r.reference_samples = r.povray() ? 2 : static_cast<int>(r.result.samples * plan.reference);
             r.reference = rgb_of(r.render({r.reference_samples, kReferenceSeed}).image);
             for (double const m : channel_means(r.reference)) r.result.mean += m / 3;
         } catch (std::exception const& e) {

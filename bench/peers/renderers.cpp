@@ -59,6 +59,7 @@ std::string answer(std::string const& command) {
     }
     return text;
 }
+std::string first_line(std::string const& text) { return text.substr(0, text.find('\n')); }
 /// The rest of the line after `mark`, where that is said last.
 std::string after(std::string const& text, std::string const& mark) {
     auto const at = text.rfind(mark);
@@ -91,7 +92,8 @@ Renderer ours(Programs const& p, std::string key, std::string name, std::string 
                             seconds["compile"].get<double>() + seconds["render"].get<double>(), f.seconds};
         };
     };
-    return {std::move(key), std::move(name), answer(quoted(p.nephroid) + " --version"), path_tracer, prepare};
+    return {std::move(key), std::move(name), first_line(answer(quoted(p.nephroid) + " --version")),
+            path_tracer, prepare};
 }
 
 Renderer cycles(Programs const& p) {
@@ -110,8 +112,7 @@ Renderer cycles(Programs const& p) {
             return Rendered{read_image(out), call, f.seconds};
         };
     };
-    std::string const said = answer(quoted(p.blender) + " --version");
-    return {"cycles", kCycles, said.substr(0, said.find('\n')), true, prepare};
+    return {"cycles", kCycles, first_line(answer(quoted(p.blender) + " --version")), true, prepare};
 }
 
 /// Samples of a pixel are what its quality is multiplied by here.
@@ -128,8 +129,7 @@ Renderer povray(Programs const& p) {
             return Rendered{read_image(folder / "out.exr"), f.seconds, f.seconds};
         };
     };
-    std::string const said = answer(quoted(p.povray) + " --version");
-    return {"povray", kPovray, "POV-Ray" + after(said, "POV-Ray"), false, prepare};
+    return {"povray", kPovray, first_line(answer(quoted(p.povray) + " --version")), false, prepare};
 }
 
 /// A path tracer whose program the user names: `write` makes its scene for a render, `options` are what its program is called

@@ -109,10 +109,10 @@ std::filesystem::path write_povray(PeerScene const& peer, std::filesystem::path 
     t += fmt::format("camera{{location {} direction {} right {} up {}}}\n", v(c.eye), v(reach * c.forward),
                      v(c.right * std::max(aspect, 1.0f)), v(c.up / std::min(aspect, 1.0f)));
     if (!peer.sky_picture.empty()) {
-        // Its pictures lie around y and begin at +x, towards the rear; turned to z.
+        // Its pictures lie around y and go from +x towards +z. That is turned to z, which sends +z to -y, and mirrored.
         write_hdr(folder / "sky-povray.hdr", peer.sky_picture);
-        t += "sky_sphere{pigment{image_map{hdr \"sky-povray.hdr\" map_type 1 interpolate 2} rotate "
-             "<90,0,0>}}\n";
+        t += "sky_sphere{pigment{image_map{hdr \"sky-povray.hdr\" map_type 1 interpolate 2} rotate <90,0,0> "
+             "scale <1,-1,1>}}\n";
     } else if (peer.sky != Vec3{0}) {
         t += fmt::format("sky_sphere{{pigment{{rgb {}}}}}\n", v(peer.sky));
     }

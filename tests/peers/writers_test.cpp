@@ -95,6 +95,11 @@ TEST_CASE("POV-Ray's light is as strong as the lamp, by its own law of fading") 
     CHECK(count(t, "picture-0.png\" gamma srgb ") == 1);
     CHECK(fs::exists(folder.path() / "picture-0.png"));
 
+    // A sky whose pole is +z, and which goes from +x to +y: pattern y -> z -> z, and z -> -y -> y.
+    scene.sky_picture = Image(PixelFormat::Float, 8, 4, {"R", "G", "B"});
+    CHECK(count(text_of(write_povray(scene, folder.path(), 1)), "rotate <90,0,0> scale <1,-1,1>") == 1);
+    CHECK(fs::exists(folder.path() / "sky-povray.hdr"));
+
     scene.meshes[0].two_sided = true;
     CHECK(count(text_of(write_povray(scene, folder.path(), 1)), "light_source") == 2);
     scene.meshes[0].flat.reset();  // what is no light there is left to its radiosity
