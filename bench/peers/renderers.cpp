@@ -129,7 +129,11 @@ Renderer povray(Programs const& p) {
             return Rendered{read_image(folder / "out.exr"), f.seconds, f.seconds};
         };
     };
-    return {"povray", kPovray, first_line(answer(quoted(p.povray) + " --version")), false, prepare};
+    // Without a file of settings it says that first.
+    std::string const said = answer(quoted(p.povray) + " --version");
+    auto const at = said.find("POV-Ray ");
+    std::string const version = at == std::string::npos ? "" : first_line(said.substr(at));
+    return {"povray", kPovray, version, false, prepare};
 }
 
 /// A path tracer whose program the user names: `write` makes its scene for a render, `options` are what its program is called
