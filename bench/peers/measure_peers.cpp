@@ -82,6 +82,15 @@ double median(std::vector<double> v) {
     return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
 }
 
+std::vector<double> efficiencies(Result const& r) {
+    std::vector<double> each;
+    for (std::size_t i = 0; i < r.seconds.size(); ++i) {
+        if (!(r.errors[i] > 0)) return {};
+        each.push_back(1 / (r.errors[i] * r.seconds[i]));
+    }
+    return each;
+}
+
 SceneResult measure_scene(std::string const& name, PeerScene const& peer,
                           std::vector<Renderer const*> const& renderers, Plan const& plan, bool equal_samples,
                           std::filesystem::path const& scratch) {
@@ -100,7 +109,7 @@ SceneResult measure_scene(std::string const& name, PeerScene const& peer,
             r.render = renderer->prepare(peer, folder);
             // POV-Ray has a quality, and no seconds that it could be asked for.
             r.result.samples = r.povray() ? 1 : calibrate(r, plan.seconds);
-            r.reference_samples = r.povray() ? 4 : static_cast<int>(r.result.samples * plan.reference);
+            r.reference_samples = r.povray() ? 2 : static_cast<int>(r.result.samples * plan.reference);
             r.reference = rgb_of(r.render({r.reference_samples, kReferenceSeed}).image);
             for (double const m : channel_means(r.reference)) r.result.mean += m / 3;
         } catch (std::exception const& e) {
@@ -134,8 +143,11 @@ SceneResult measure_scene(std::string const& name, PeerScene const& peer,
             r.result.errors.push_back(error_of(r, done.image, r.result.samples));
             if (r.renderer->key == "nephroid-sppm") pictures[&r].push_back(rgb_of(done.image));
             if (i == 0) r.result.picture = rgb_of(done.image);
-            if (equal_samples && r.renderer->path_tracer)
-                r.result.seconds64.push_back(r.render({64, static_cast<std::uint64_t>(i) + 1}).seconds);
+            if (equal_samples && !r.povray()) {
+                auto const timed = r.render({64, static_cast<std::uint64_t>(i) + 1, true});
+                r.result.seconds64.push_back(timed.seconds);
+                r.result.process_seconds64.push_back(timed.process_seconds);
+            }
         });
     }
     auto const ours = std::find_if(runners.begin(), runners.end(),

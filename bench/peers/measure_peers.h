@@ -25,7 +25,7 @@ struct Result {
     int samples = 0;
     std::vector<double> seconds, process_seconds, errors;  // a repetition each; relMSE
     std::vector<TimedError> curve;                         // at 1/16, 1/4, 1 and 4 times the samples
-    std::vector<double> seconds64;                         // of 64 samples, where that was asked for
+    std::vector<double> seconds64, process_seconds64;      // of the yardsticks' 64 samples, where asked for
     std::string failure;                                   // why there is nothing else
     Image picture;                                         // of the first repetition
 };
@@ -38,16 +38,16 @@ struct SceneResult {
 
 /// Pictures whose means differ by more are not of the same thing.
 inline constexpr double kSameMean = 0.05;
-/// Of our path tracer: that of which the others' means have to be.
-inline constexpr char const* kPath = "nephroid path, rgb";
 /// That renderer's, if it did not fail.
 Result const* find(SceneResult const& scene, std::string const& renderer);
 /// What a run cannot be trusted for: renderers that failed, and path tracers whose means are not ours.
 std::vector<std::string> complaints(std::vector<SceneResult> const& scenes);
 
 double median(std::vector<double> v);
+/// 1 / (relMSE x seconds) of every round; empty where an error is 0.
+std::vector<double> efficiencies(Result const& r);
 
-/// `equal_samples`: 64 samples of a pixel are timed too.
+/// `equal_samples`: the yardsticks' 64 samples of a pixel are timed too.
 SceneResult measure_scene(std::string const& name, PeerScene const& peer,
                           std::vector<Renderer const*> const& renderers, Plan const& plan, bool equal_samples,
                           std::filesystem::path const& scratch);

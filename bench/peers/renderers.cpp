@@ -1,4 +1,5 @@
 #include "renderers.h"
+#include "yardsticks.h"
 
 #include "image/read.h"
 #include "math/error.h"
@@ -58,6 +59,7 @@ std::string answer(std::string const& command) {
     }
     return text;
 }
+std::string first_line(std::string const& text) { return text.substr(0, text.find('\n')); }
 /// The rest of the line after `mark`, where that is said last.
 std::string after(std::string const& text, std::string const& mark) {
     auto const at = text.rfind(mark);
@@ -74,21 +76,24 @@ bool runs(std::string const& program) {
            std::system(("command -v " + quoted(program) + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-Renderer ours(Programs const& p, std::string key, std::string name, std::string options, bool path_tracer) {
-    auto prepare = [p, options](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
+Renderer ours(Programs const& p, std::string key, std::string name, std::string options, bool path_tracer,
+              std::string yardstick = "") {
+    auto prepare = [p, options, yardstick](PeerScene const& peer, fs::path const& folder) -> RenderFunction {
         fs::path const scene = write_pbrt_scene(peer, {folder, 16, 1});
         return [=](RenderJob const& job) {
             auto const f = start(fmt::format("{} render {} --quiet --float --stats stats.json -o out.exr "
-                                             "--spp {} --seed {} --threads {} {}",
+                                             "--spp {} --seed {} --threads {} {} {}",
                                              quoted(p.nephroid), quoted(scene.string()), job.samples,
-                                             job.seed, p.threads, options),
+                                             job.seed, p.threads, options, job.yardstick ? yardstick : ""),
                                  folder);
-            auto const stats = nlohmann::json::parse(contents(folder / "stats.json"));
-            return Rendered{read_image(folder / "out.exr"), stats["seconds"]["render"].get<double>(),
-                            f.seconds};
+            auto const seconds = nlohmann::json::parse(contents(folder / "stats.json"))["seconds"];
+            // With its trees, as those of Cycles are in what that says.
+            return Rendered{read_image(folder / "out.exr"),
+                            seconds["compile"].get<double>() + seconds["render"].get<double>(), f.seconds};
         };
     };
-    return {std::move(key), std::move(name), answer(quoted(p.nephroid) + " --version"), path_tracer, prepare};
+    return {std::move(key), std::move(name), first_line(answer(quoted(p.nephroid) + " --version")),
+            path_tracer, prepare};
 }
 
 Renderer cycles(Programs const& p) {
@@ -107,8 +112,7 @@ Renderer cycles(Programs const& p) {
             return Rendered{read_image(out), call, f.seconds};
         };
     };
-    std::string const said = answer(quoted(p.blender) + " --version");
-    return {"cycles", "Cycles", said.substr(0, said.find('\n')), true, prepare};
+    return {"cycles", kCycles, first_line(answer(quoted(p.blender) + " --version")), true, prepare};
 }
 
 /// Samples of a pixel are what its quality is multiplied by here.
@@ -125,8 +129,11 @@ Renderer povray(Programs const& p) {
             return Rendered{read_image(folder / "out.exr"), f.seconds, f.seconds};
         };
     };
+    // Without a file of settings it says that first.
     std::string const said = answer(quoted(p.povray) + " --version");
-    return {"povray", "POV-Ray", "POV-Ray" + after(said, "POV-Ray"), false, prepare};
+    auto const at = said.find("POV-Ray ");
+    std::string const version = at == std::string::npos ? "" : first_line(said.substr(at));
+    return {"povray", kPovray, version, false, prepare};
 }
 
 /// A path tracer whose program the user names: `write` makes its scene for a render, `options` are what its program is called
@@ -168,9 +175,9 @@ Renderer tungsten(Programs const& p) {
 
 std::vector<Renderer> find_renderers(Programs const& p) {
     std::vector<Renderer> found{
-        ours(p, "nephroid", "nephroid path, rgb", "--integrator path --color rgb", true),
-        ours(p, "nephroid-spectral", "nephroid path, spectral", "--integrator path --color spectral", true),
-        ours(p, "nephroid-sppm", "nephroid sppm, rgb", "--integrator sppm --color rgb", false)};
+        ours(p, "nephroid", kPath, "--integrator path --color rgb", true),
+        ours(p, "nephroid-spectral", kSpectral, "--integrator path --color spectral", true),
+        ours(p, "nephroid-sppm", kSppm, "--integrator sppm --color rgb", false, kSppmYardstick)};
     auto const add = [&](char const* name, std::string const& program, Renderer (*make)(Programs const&),
                          bool asked) {
         if (runs(program))

@@ -16,12 +16,13 @@ namespace {
 
 std::string v(Vec3 a) { return fmt::format("<{},{},{}>", a.x, a.y, a.z); }
 
-std::string texture(PeerScene const& peer, PeerSurface const& s, Vec3 emission,
+/// `lit`: an emitter that is a light as well, which radiosity must not find again.
+std::string texture(PeerScene const& peer, PeerSurface const& s, Vec3 emission, bool lit,
                     std::vector<std::filesystem::path> const& pictures) {
     if (emission != Vec3{0})
         return fmt::format(
-            "texture{{pigment{{rgb {}}} finish{{ambient 0 diffuse 0 emission 1}}}} no_shadow no_radiosity",
-            v(emission));
+            "texture{{pigment{{rgb {}}} finish{{ambient 0 diffuse 0 emission 1}}}} no_shadow{}", v(emission),
+            lit ? " no_radiosity" : "");
     if (s.kind == PeerSurface::Kind::Glass)
         return fmt::format(
             "texture{{pigment{{rgbt 1}} finish{{ambient 0 diffuse 0 specular 0 reflection{{0,1 fresnel on}} "
@@ -57,20 +58,24 @@ std::string mesh(TriangleMesh const& m) {
                 [](Vec3i t) { return fmt::format("<{},{},{}>", t.x, t.y, t.z); });
 }
 
-/// A one-sided area light: its light goes down with the cosine (spotlight tightness 1), and with the square of the distance. POV-Ray's
-/// diffuse reflection leaves out 1 / pi, so intensity is radiance x area / pi.
-std::string light(PeerMesh const& m, double quality, std::size_t lights) {
-    FlatLight const& f = *m.flat;
+/// Lights of POV-Ray lose their strength as 2 / (1 + (d / fade_distance)^fade_power): the square of the distance only from far beyond
+/// fade_distance on. So that is tiny here, a share of the light's own size; but not 0, which its photons take for no loss at all.
+constexpr float kFade = 1e-3f;
+
+/// An area light to the side of the normal `n`: it goes down with the cosine to that (tightness 1; radius 90 keeps off the
+/// spline that is multiplied in between radius and falloff), and with the square of the distance. Its diffuse reflection leaves out
+/// 1 / pi, so radiance x area / pi is what it has to be at distance 1, where the fading above makes 2 fade_distance^2 of it.
+std::string light(FlatLight const& f, Vec3 emission, Vec3 n, double quality, std::size_t lights) {
     float const area = length(cross(f.u, f.v)) * (f.disk ? kPi : 4.0f);
-    float const size = std::max(length(f.u), length(f.v));
-    Vec3 const n = front(m.mesh), from = f.centre + 1e-3f * size * n;
+    float const size = std::max(length(f.u), length(f.v)), fade = kFade * size;
+    Vec3 const from = f.centre + 1e-3f * size * n;
     int const grid = lights > 16 ? 2 : std::max(2, static_cast<int>(std::lround(8 * std::sqrt(quality))));
     return fmt::format(
         "light_source{{{} rgb {} area_light {},{},{},{} {} jitter adaptive 2 area_illumination on "
-        "fade_distance {} fade_power 2 "
-        "spotlight point_at {} radius 0 falloff 90 tightness 1 photons{{refraction on reflection on}}}}\n",
-        v(from), v(m.emission * (2 * area * kInvPi / sqr(size))), v(2.0f * f.u), v(2.0f * f.v), grid, grid,
-        f.disk ? "circular" : "", size, v(from + size * n));
+        "fade_distance {} fade_power 2 spotlight point_at {} radius 90 falloff 90 tightness 1 "
+        "photons{{refraction on reflection on area_light}}}}\n",
+        v(from), v(emission * (area * kInvTwoPi / sqr(fade))), v(2.0f * f.u), v(2.0f * f.v), grid, grid,
+        f.disk ? "circular" : "", fade, v(from + size * n));
 }
 
 }  // namespace
@@ -104,22 +109,27 @@ std::filesystem::path write_povray(PeerScene const& peer, std::filesystem::path 
     t += fmt::format("camera{{location {} direction {} right {} up {}}}\n", v(c.eye), v(reach * c.forward),
                      v(c.right * std::max(aspect, 1.0f)), v(c.up / std::min(aspect, 1.0f)));
     if (!peer.sky_picture.empty()) {
-        // Its pictures lie around y and begin at +x, towards the rear; turned to z.
+        // Its pictures lie around y and go from +x towards +z. That is turned to z, which sends +z to -y, and mirrored.
         write_hdr(folder / "sky-povray.hdr", peer.sky_picture);
-        t += "sky_sphere{pigment{image_map{hdr \"sky-povray.hdr\" map_type 1 interpolate 2} rotate "
-             "<90,0,0>}}\n";
+        t += "sky_sphere{pigment{image_map{hdr \"sky-povray.hdr\" map_type 1 interpolate 2} rotate <90,0,0> "
+             "scale <1,-1,1>}}\n";
     } else if (peer.sky != Vec3{0}) {
         t += fmt::format("sky_sphere{{pigment{{rgb {}}}}}\n", v(peer.sky));
     }
     for (PeerMesh const& m : peer.meshes) {
         t += mesh(m.mesh) +
-             texture(peer, peer.surfaces[static_cast<std::size_t>(m.surface)], m.emission, pictures) + "}\n";
-        if (m.emission != Vec3{0} && m.flat) t += light(m, quality, lights);
+             texture(peer, peer.surfaces[static_cast<std::size_t>(m.surface)], m.emission, m.flat.has_value(),
+                     pictures) +
+             "}\n";
+        if (m.emission == Vec3{0} || !m.flat) continue;
+        Vec3 const n = front(m.mesh);
+        t += light(*m.flat, m.emission, n, quality, lights);
+        if (m.two_sided) t += light(*m.flat, m.emission, -n, quality, lights);
     }
     for (PeerBall const& b : peer.balls)
         t += fmt::format(
             "sphere{{{},{} {}}}\n", v(b.centre), b.radius,
-            texture(peer, peer.surfaces[static_cast<std::size_t>(b.surface)], b.emission, pictures));
+            texture(peer, peer.surfaces[static_cast<std::size_t>(b.surface)], b.emission, false, pictures));
     return write_text(folder / "scene.pov", t);
 }
 

@@ -32,6 +32,9 @@ void write_obj(std::filesystem::path const& path, TriangleMesh const& m) {
 std::filesystem::path write_tungsten(PeerScene const& peer, WriteJob const& job) {
     if (!peer.sky_picture.empty())
         throw Error(ErrorKind::Input, "scenes under a picture of a sky are not written for Tungsten");
+    for (PeerMesh const& m : peer.meshes)
+        if (m.two_sided && m.emission != Vec3{0})
+            throw Error(ErrorKind::Input, "lights with two sides are not written for Tungsten");
     auto const pictures = write_pictures(peer, job.folder);
     json j;
     for (std::size_t i = 0; i < peer.surfaces.size(); ++i) {
