@@ -22,6 +22,30 @@ struct Place {
         0;  // every so-manieth photon of the map does not count, and the others stand for it
 };
 
+/// Whether photons landed on the place's side of much the same plane, by their normals. Neighbours have the same one mostly: what was said
+/// of the last is kept.
+class Side {
+  public:
+    explicit Side(Place const& at) : at_(at) {}
+    bool accepts(Photon const& photon) {
+        if (photon.packed_n() != last_) {
+            last_ = photon.packed_n();
+            accepted_ = faces(photon.along_n());
+        }
+        return accepted_;
+    }
+
+  private:
+    [[nodiscard]] bool faces(Vec3 n) const {
+        float const facing = at_.both_sides ? abs_dot(n, at_.n) : dot(n, at_.n);
+        return facing > 0.0f && sqr(facing) >= sqr(kSameNormal) * length_squared(n);
+    }
+
+    Place const& at_;
+    std::uint32_t last_ = ~0u;  // of none
+    bool accepted_ = false;
+};
+
 /// What the photons that count amount to, and where they lie.
 struct Gathered {
     float radius = 0;
@@ -39,6 +63,7 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
     auto const sum = [&](auto const& kernel) {
         if (!(sqr(g.radius) >= kLeastSquare)) return;
         float inverse = 1.0f / sqr(g.radius);
+        Side side(at);
         auto const count = [&](std::uint32_t i, float d2) {
             if (at.thinned > 0 && i % at.thinned == 0) return;
             Photon const& photon = map[i];
@@ -46,9 +71,7 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
             Vec3 const offset = photon.p() - at.p;
             float const off_plane = std::abs(dot(offset, at.n));
             if (off_plane > kPlate * g.radius) return;
-            Vec3 const n = photon.along_n();
-            float const facing = at.both_sides ? abs_dot(n, at.n) : dot(n, at.n);
-            if (facing <= 0.0f || sqr(facing) < sqr(kSameNormal) * length_squared(n)) return;
+            if (!side.accepts(photon)) return;
             if (use(photon, kernel(d2 * inverse) * inverse)) {
                 ++g.photons;
                 g.offsets += offset;

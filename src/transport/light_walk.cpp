@@ -4,7 +4,8 @@ namespace nephroid {
 
 std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths, std::uint32_t* light) {
     c.sampler.at(dimension::kSource);
-    double const u_source = c.sampler.next_1d_fine();
+    // One light alone is no choice; towards casters there is more than one way.
+    double const u_source = aim || c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
     c.sampler.at(dimension::kSourcePoint);
     Vec2 const u_point = c.sampler.next_2d();
     c.sampler.at(dimension::kSourceDirection);

@@ -86,7 +86,7 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
             look(p, branch, next, 1, nullptr, brought);
         else if (p.final_gather)
             gather(p, branch, next, brought);
-        else
+        else if (c.world.may_meet_emission(next.ray))
             advance(branch, next, EmissionWeight::Mis, v, brought[LightClass::Direct]);
         c.tainted = c.tainted || branch.tainted;
     }

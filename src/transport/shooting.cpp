@@ -14,8 +14,9 @@ namespace nephroid {
 
 namespace {
 
-/// Photons lie in the map by chunks of so many paths, whoever traces them.
-constexpr std::uint64_t kChunk = 4096;
+/// So many paths are one task, and lie in the map one after the other whoever traces them: few enough that no thread waits long for the
+/// last of them.
+constexpr std::uint64_t kChunk = 1024;
 /// Whether to stop is asked once in so many paths.
 constexpr std::uint64_t kPatience = 64;
 

@@ -30,7 +30,8 @@ SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovS
         // A delta part of the surface is followed; the rest has been estimated, but for emission that scattering finds (MIS).
         if (!scatter(c, walk, v)) break;
         if (!walk.path_class.all_specular()) {
-            advance(c, walk, EmissionWeight::Mis, v, seen[LightClass::Direct]);
+            if (c.world.may_meet_emission(walk.ray))
+                advance(c, walk, EmissionWeight::Mis, v, seen[LightClass::Direct]);
             break;
         }
     }

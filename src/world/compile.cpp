@@ -167,29 +167,49 @@ struct Builder {
         }
     }
 
+    /// The box of a surface in the world.
+    static Bounds3 box_of(ObjectRecord const& r, InstanceRecord const* instance) {
+        Bounds3 const box = match(
+            r.object->shape, [](LoopSubdivision const&) { return Bounds3{}; },
+            [](auto const& shape) { return bounds(shape); });
+        Bounds3 around;
+        for (int c = 0; c < 8 && !box.empty(); ++c) {
+            Vec3 p = box.corner(c);
+            if (r.place) p = r.place->shape_to_group.point(p);
+            around.add(instance ? instance->to_world.point(p) : p);
+        }
+        return around;
+    }
+    /// Calls f(record, instance) for all that there is in the world, instance by instance.
+    template <class F>
+    void each_appearance(F&& f) const {
+        auto const all = [&](std::uint32_t first, std::uint32_t count, InstanceRecord const* instance) {
+            for (std::uint32_t i = first; i < first + count; ++i) f(parts.records[i], instance);
+        };
+        all(first_record[0], record_count[0], nullptr);
+        for (InstanceRecord const& i : parts.instances)
+            all(i.first_record, parts.count_from(i.first_record), &i);
+    }
+
     /// Of what encloses, by material: a body's surface may be of several objects.
     std::vector<Bounds3> bodies() const {
         std::vector<Bounds3> boxes(scene.materials.size());
-        auto const add = [&](std::uint32_t first, std::uint32_t count, InstanceRecord const* instance) {
-            for (std::uint32_t i = first; i < first + count; ++i) {
-                ObjectRecord const& r = parts.records[i];
-                if (!r.material.valid() || !assets.data(r.material).encloses) continue;
-                Bounds3 const box = match(
-                    r.object->shape, [](LoopSubdivision const&) { return Bounds3{}; },
-                    [](auto const& shape) { return bounds(shape); });
-                if (box.empty()) continue;
-                for (int c = 0; c < 8; ++c) {
-                    Vec3 p = box.corner(c);
-                    if (r.place) p = r.place->shape_to_group.point(p);
-                    boxes[r.material.value].add(instance ? instance->to_world.point(p) : p);
-                }
-            }
-        };
-        add(first_record[0], record_count[0], nullptr);
-        for (InstanceRecord const& i : parts.instances)
-            add(i.first_record, parts.count_from(i.first_record), &i);
+        each_appearance([&](ObjectRecord const& r, InstanceRecord const* instance) {
+            if (r.material.valid() && assets.data(r.material).encloses)
+                boxes[r.material.value].add(box_of(r, instance));
+        });
         std::erase_if(boxes, [](Bounds3 const& box) { return box.empty(); });
         return boxes;
+    }
+    /// Around all surfaces that emit, a little wider: where Embree meets them is rounded.
+    Bounds3 emitting() const {
+        Bounds3 box;
+        each_appearance([&](ObjectRecord const& r, InstanceRecord const* instance) {
+            if (r.emits()) box.add(box_of(r, instance));
+        });
+        if (box.empty()) return box;
+        Vec3 const slack = 1e-4f * Vec3(length(box.diagonal())) + 1e-5f * max(abs(box.lo), abs(box.hi));
+        return {box.lo - slack, box.hi + slack};
     }
 
     /// Depth first through the groups' instances; Embree's instances have one level, so chains are multiplied out. `validate`
@@ -243,6 +263,8 @@ World compile(Scene scene_in) {
     w.parts_->record_count = b.record_count;
     if (w.encloses_) w.bodies_ = b.bodies();
     gather_lights(scene, *w.assets_, *w.parts_, *w.lights_, bounding_sphere(w.bounds_));
+    Vec3 const all(kInfinity);
+    w.emitting_ = w.lights_->infinite.empty() ? b.emitting() : Bounds3{-all, all};
     w.counts_.lights = w.lights_->entries.size();
     w.counts_.infinite_lights = w.lights_->infinite.size();
     return w;

@@ -5,6 +5,7 @@
 #include "transport/photon_grid.h"
 #include "transport/photon_tree.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,14 +31,25 @@ class PhotonMap {
     template <class F>
     void within(Vec3 p, float radius, F&& f) const {
         if (!asks(p, radius)) return;
-        float const most = radius * radius;
+        // Written down first, without a branch: which of eight are near is not to be guessed.
+        constexpr std::size_t kRoom = 64;
+        std::array<float, kRoom + 8> distance2;
+        std::array<std::uint32_t, kRoom + 8> index;
+        std::size_t found = 0;
+        auto const hand_over = [&] {
+            for (std::size_t i = 0; i < found; ++i) f(index[i], distance2[i]);
+            found = 0;
+        };
+        Float8 const most = all8(radius * radius);
         auto const each = [&](std::uint32_t first, Float8 d2) {
-            each_bit(less8(d2, all8(most)), [&](std::uint32_t lane) { f(first + lane, d2[lane]); });
+            found += pack8(less8(d2, most), d2, first, &distance2[found], &index[found]);
+            if (found > kRoom) hand_over();
         };
         if (grid_.size() > 0)
             grid_.eights_within(p, radius, each);
         else
-            tree_.eights_within(p, most, each);
+            tree_.eights_within(p, radius * radius, each);
+        hand_over();
     }
     /// The k nearest photons that are nearer than max_radius, all of them if there are no more than that. Of photons at the same
     /// distance as the k-th it is not said which are in, but always the same.

@@ -114,6 +114,8 @@ class World {
     /// … of one infinite light.
     Spectrum environment(LightId light, Vec3 p, Vec3 w, Wavelengths const& lambda) const;
     [[nodiscard]] std::vector<LightId> const& infinite_lights() const;
+    /// False where nothing on the ray's way emits, whatever is in between: who asks for emission alone need not look.
+    [[nodiscard]] bool may_meet_emission(Ray const& ray) const;
 
     /// Whether sample_light looks at u_choose at all.
     [[nodiscard]] bool chooses_lights() const;
@@ -184,6 +186,7 @@ class World {
     std::unique_ptr<LightTable> lights_;
     std::unique_ptr<WorldParts> parts_;
     Bounds3 bounds_;
+    Bounds3 emitting_;  // everything that emits, with room for rounding; all of space where something at infinity does
     bool encloses_ = false;
     std::vector<Bounds3> bodies_;
     WorldCounts counts_;
