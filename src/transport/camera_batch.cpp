@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <new>
 
 namespace nephroid {
 
@@ -58,37 +60,45 @@ CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film,
 
 void CameraBatch::add(int x, int y, std::uint64_t pass, std::uint64_t sample) {
     Sample& s = samples_[size_];
-    PathContext& c = paths_[size_].c;
     s.x = x, s.y = y, s.pass = pass;
     // The pixel's own name, whatever the crop window or the resolution.
     std::uint64_t const pixel =
         static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
     s.sampler = PathSampler(job_.sequence(), stream::kCamera, pixel, sample);
-    s.sampler.at(dimension::kFilm);
-    FilterSample const f = job_.filter().sample(s.sampler.next_2d());
+    if (++size_ == kMostInStep) run();
+}
+
+void CameraBatch::begin(std::size_t i) {
+    Sample& s = samples_[i];
+    PathContext& c = paths_[i].c;
+    FilterSample const f = job_.filter().sample(s.on_film);
     s.filter_weight = f.weight;
     s.sampler.at(dimension::kLens);
     Vec2 const lens = job_.camera().has_lens() ? s.sampler.next_2d() : Vec2{0.5f, 0.5f};
     s.sampler.at(dimension::kWavelength);
-    c.lambda = job_.prepares()                           ? job_.pass_wavelengths(pass)
-               : job_.settings().color == ColorMode::Rgb ? Wavelengths::rgb()
-                                                         : Wavelengths::spectral(s.sampler.next_1d());
-    s.at = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} + f.offset;
-    s.camera = job_.camera().ray(s.at, lens);
-    if (++size_ == kMostInStep) run();
+    if (job_.prepares())
+        c.lambda = job_.pass_wavelengths(s.pass);
+    else if (job_.settings().color == ColorMode::Spectral)
+        c.lambda = Wavelengths::spectral(s.sampler.next_1d());
+    s.at = Vec2{static_cast<float>(s.x) + 0.5f, static_cast<float>(s.y) + 0.5f} + f.offset;
+    // Built where it stands: a copy right after it was written waits for the writing.
+    ::new (static_cast<void*>(&s.camera)) CameraRay(job_.camera().ray(s.at, lens));
 }
 
 void CameraBatch::run(PathTrace* trace) {
     shadows_.begin();
     std::array<PathInFlight*, kMostInStep> going;
+    for (std::size_t i = 0; i < size_; ++i) going[i] = &paths_[i];
+    draw_2d({going.data(), size_}, dimension::kFilm,
+            [&](PathInFlight const& path) -> Vec2& { return samples_[path.c.path].on_film; });
     for (std::size_t i = 0; i < size_; ++i) {
         PathInFlight& path = paths_[i];
+        begin(i);
         path.c.tainted = false;
         path.c.trace = trace;
         path.seen = {};
         if (path.aov) *path.aov = {};
-        path.walk = Walk::from_camera(path.c, samples_[i].camera.ray);
-        going[i] = &path;
+        std::construct_at(&path.walk)->begin_at_camera(path.c, samples_[i].camera.ray);
         if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
     }
     trace_rays(job_.world(), RayKind::Camera, {going.data(), size_}, stats_);

@@ -31,11 +31,13 @@ class CameraBatch {
         int x = 0, y = 0;
         std::uint64_t pass = 0;
         PathSampler sampler;
-        Vec2 at{0, 0};  // on the film, pixels
+        Vec2 on_film{0, 0};  // the numbers that choose …
+        Vec2 at{0, 0};       // … where on the film, pixels
         float filter_weight = 1;
         CameraRay camera;
     };
 
+    void begin(std::size_t i);
     void follow(std::size_t i);
     void finish(std::size_t i, PathTrace* trace);
 

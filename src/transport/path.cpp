@@ -9,13 +9,10 @@ namespace nephroid {
 
 namespace {
 
-/// The same numbers for all: those of one use at the vertices where the paths are.
-void draw(std::span<PathInFlight*> paths, std::uint32_t use, Vec2 Drawn::*numbers) {
-    std::array<PathSampler*, kMostInStep> samplers;
-    std::array<Vec2, kMostInStep> drawn;
-    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
-    draw_2d({samplers.data(), paths.size()}, dimension::of(paths.front()->walk.vertex, use), drawn.data());
-    for (std::size_t i = 0; i < paths.size(); ++i) paths[i]->v.drawn.*numbers = drawn[i];
+/// The numbers of one use at the vertices where the paths are, which are as far along all of them.
+void draw(std::span<PathInFlight* const> paths, std::uint32_t use, Vec2 Drawn::*numbers) {
+    draw_2d(paths, dimension::of(paths.front()->walk.vertex, use),
+            [&](PathInFlight& path) -> Vec2& { return path.v.drawn.*numbers; });
 }
 
 /// Those for which `goes_on` is true, in their order.
@@ -31,9 +28,10 @@ std::span<PathInFlight*> keep(std::span<PathInFlight*> paths, F goes_on) {
 
 void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats) {
     std::array<RawHit, kLanes> hits;
+    RayPacket rays;
     for (std::size_t begin = 0; begin < paths.size(); begin += kLanes) {
         auto const group = paths.subspan(begin, std::min(kLanes, paths.size() - begin));
-        RayPacket rays;
+        rays.used = 0;
         for (std::size_t i = 0; i < group.size(); ++i) rays.set(i, group[i]->walk.ray, kInfinity);
         world.intersect(rays, kind, stats, hits);
         for (std::size_t i = 0; i < group.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include "walk.h"
 
+#include <array>
 #include <span>
 
 namespace nephroid {
@@ -15,6 +16,16 @@ struct PathInFlight {
     SeenLight seen;
     AovSample* aov = nullptr;  // of the first hit, where somebody asks
 };
+
+/// Draws the two numbers of one dimension for every path, into to(path).
+template <class To>
+void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To to) {
+    std::array<PathSampler*, kMostInStep> samplers;
+    std::array<Vec2, kMostInStep> drawn;
+    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
+    draw_2d(std::span<PathSampler* const>{samplers.data(), paths.size()}, dimension, drawn.data());
+    for (std::size_t i = 0; i < paths.size(); ++i) to(*paths[i]) = drawn[i];
+}
 
 /// Traces the rays of the walks side by side: advance() finds what they meet.
 void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats);

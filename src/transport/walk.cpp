@@ -210,60 +210,62 @@ Vec2 number_2d(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t 
 
 /// A light sample at a vertex, and what it brings there.
 struct DirectLight {
-    LightSample from;
-    float weight = 1;  // by MIS
-    Spectrum light;    // f |cos| Li weight / pdf, unless something is in the way; without beta
+    std::optional<LightSample> from;  // none: nothing
+    float weight = 1;                 // by MIS
+    Spectrum light{};                 // f |cos| Li weight / pdf, unless something is in the way; without beta
 };
 
-/// False where the sample brings nothing.
-bool choose_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, DirectLight& direct) {
+DirectLight choose_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
     c.sampler.at(dimension::of(walk.vertex, dimension::kLightChoice));
     double const u_choose = c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
     Vec2 const u = number_2d(c, walk, v, dimension::kLight, v.drawn.light);
-    auto const light = c.world.sample_light(receiver_of(v), c.lights, u_choose, u, c.lambda);
-    if (!light || light->radiance.is_black()) return false;
-    Vec3 const wi_local = v.frame.to_local(light->wi);
-    Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance);
-    if (f.is_black()) return false;
-    // A delta light cannot be found by scattering: its weight is 1.
-    if (mis && !light->delta)
-        direct.weight = power_heuristic(light->pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
-    direct.light = f * light->radiance * (abs_cos_theta(wi_local) * direct.weight / light->pdf);
-    if (c.world.encloses()) {
-        float const distance = light->at_infinity ? kInfinity : length(light->p - v.hit.s.p);
-        direct.light = direct.light * transmittance(c, beyond(c, walk, v, light->wi), distance);
+    DirectLight direct{c.world.sample_light(receiver_of(v), c.lights, u_choose, u, c.lambda)};
+    if (!direct.from) return direct;
+    LightSample const& light = *direct.from;
+    Vec3 const wi_local = v.frame.to_local(light.wi);
+    Spectrum const f = evaluate(v.bsdf, v.wo_local, wi_local, Mode::Radiance) * light.radiance;
+    if (f.is_black()) {
+        direct.from.reset();
+        return direct;
     }
-    direct.from = *light;
-    return true;
+    // A delta light cannot be found by scattering: its weight is 1.
+    if (mis && !light.delta)
+        direct.weight = power_heuristic(light.pdf, pdf(v.bsdf, v.wo_local, wi_local, c.hemisphere));
+    direct.light = f * (abs_cos_theta(wi_local) * direct.weight / light.pdf);
+    if (c.world.encloses()) {
+        float const distance = light.at_infinity ? kInfinity : length(light.p - v.hit.s.p);
+        direct.light = direct.light * transmittance(c, beyond(c, walk, v, light.wi), distance);
+    }
+    return direct;
 }
 
 /// … with what is in the way.
 Spectrum arriving(PathContext& c, Walk const& walk, Vertex const& v, DirectLight const& direct) {
-    float const passing = c.world.transmittance(v.hit, direct.from, c.stats);
+    float const passing = c.world.transmittance(v.hit, *direct.from, c.stats);
     Spectrum const light = direct.light * passing;
-    if (c.trace && passing > 0.0f) c.trace->lit(walk, direct.from, light, direct.weight, passing);
-    if (c.trace && passing == 0.0f) c.trace->occluded(walk, direct.from);
+    if (c.trace && passing > 0.0f) c.trace->lit(walk, *direct.from, light, direct.weight, passing);
+    if (c.trace && passing == 0.0f) c.trace->occluded(walk, *direct.from);
     return light;
 }
 
 }  // namespace
 
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis) {
-    DirectLight direct;
-    if (!choose_direct(c, walk, v, mis, direct)) return {};
+    DirectLight const direct = choose_direct(c, walk, v, mis);
+    if (!direct.from) return {};
     return arriving(c, walk, v, direct);
 }
 
 void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, SeenLight& seen) {
     LightClass const as = walk.path_class.ends_after(v.is.near_specular);
-    DirectLight direct;
-    if (!choose_direct(c, walk, v, mis, direct)) return;
+    DirectLight const direct = choose_direct(c, walk, v, mis);
+    if (!direct.from) return;
     if (!c.shadows) {
         seen[as] += walk.beta * arriving(c, walk, v, direct);
     } else if (c.trace || c.world.passes_partly()) {
         c.shadows->arrive(c.path, as, walk.beta * arriving(c, walk, v, direct));
     } else {
-        c.shadows->wait(c.path, as, walk.beta * direct.light, v.hit, direct.from, walk.vertex);
+        c.shadows->wait(c.path, as, walk.beta * direct.light, v.hit, *direct.from, walk.vertex);
     }
 }
 
@@ -285,7 +287,7 @@ namespace {
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
-    if (!s.delta) walk.from = receiver_of(v);  // after a mirror nobody asks
+    if (!s.delta) receive(v, walk.from);  // after a mirror nobody asks
     walk.cone += v.hit.t;
     walk.path_class.scatter(s.delta || v.is.near_specular);
     if (c.world.encloses()) cross_boundary(c, walk, v, wi);

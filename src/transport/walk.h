@@ -88,14 +88,18 @@ struct Walk {
 
     static Walk from_camera(PathContext const& c, Ray const& ray) {
         Walk w;
-        w.ray = ray;
-        w.met = c.camera_hit;
-        // In rgb mode the fourth lane carries nothing.
-        w.beta = c.lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
-        if (c.world.encloses()) w.interiors = c.job.camera_interiors();
-        w.from.p = ray.o;
-        w.spread = c.job.camera().pixel_spread();
+        w.begin_at_camera(c, ray);
         return w;
+    }
+    /// The same of a new Walk, where it stands.
+    void begin_at_camera(PathContext const& c, Ray const& camera_ray) {
+        ray = camera_ray;
+        met = c.camera_hit;
+        // In rgb mode the fourth lane carries nothing.
+        beta = c.lambda.is_rgb() ? Spectrum(1, 1, 1, 0) : Spectrum(1.0f);
+        if (c.world.encloses()) interiors = c.job.camera_interiors();
+        from.p = camera_ray.o;
+        spread = c.job.camera().pixel_spread();
     }
 };
 
@@ -121,8 +125,15 @@ struct Vertex {
 };
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
+inline void receive(Vertex const& v, Receiver& at) {
+    at.p = v.hit.s.p;
+    at.n = v.hit.s.ns * (v.wo_local.z < 0.0f ? -1.0f : 1.0f);
+    at.both_sides = v.is.spreads_through;
+}
 inline Receiver receiver_of(Vertex const& v) {
-    return {v.hit.s.p, v.hit.s.ns * (v.wo_local.z < 0.0f ? -1.0f : 1.0f), v.is.spreads_through};
+    Receiver at;
+    receive(v, at);
+    return at;
 }
 
 /// The geometric normal on the side that the ray came from.

@@ -141,9 +141,11 @@ struct PacketContext : Context {
 /// Of every triangle that a ray of a packet may meet.
 void packet_filter(RTCFilterFunctionNArguments const* args) {
     auto& context = *static_cast<PacketContext*>(args->context);
-    unsigned const n = args->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (args->valid[i] == 0) continue;
+    constexpr unsigned n = kLanes;  // packets are of eight
+    LaneMask asked = 0;
+    for (unsigned i = 0; i < n; ++i) asked |= static_cast<LaneMask>(args->valid[i] != 0) << i;
+    for (; asked != 0; asked &= asked - 1) {
+        auto const i = static_cast<unsigned>(std::countr_zero(asked));
         float const t = RTCRayN_tfar(args->ray, n, i);
         if (context.takes(i, {t, RTCHitN_instID(args->hit, n, i, 0), RTCHitN_geomID(args->hit, n, i),
                               RTCHitN_primID(args->hit, n, i)}))
