@@ -101,7 +101,7 @@ void CameraBatch::run(PathTrace* trace) {
         std::construct_at(&path.walk)->begin_at_camera(path.c, samples_[i].camera.ray);
         if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
     }
-    trace_rays(job_.world(), RayKind::Camera, {going.data(), size_}, stats_);
+    trace_camera_rays();
     if (auto const* p = std::get_if<PathIntegrator>(&job_.settings().integrator)) {
         follow_paths(*p, {going.data(), size_});
     } else {
@@ -110,6 +110,18 @@ void CameraBatch::run(PathTrace* trace) {
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);
     size_ = 0;
+}
+
+void CameraBatch::trace_camera_rays() {
+    std::array<RawHit, kLanes> hits;
+    RayPacket rays;
+    for (std::size_t begin = 0; begin < size_; begin += kLanes) {
+        std::size_t const n = std::min(kLanes, size_ - begin);
+        rays.used = 0;
+        for (std::size_t i = 0; i < n; ++i) rays.set(i, samples_[begin + i].camera.ray, kInfinity);
+        job_.world().intersect(rays, stats_, hits);
+        for (std::size_t i = 0; i < n; ++i) paths_[begin + i].met = hits[i];
+    }
 }
 
 void CameraBatch::follow(std::size_t i) {

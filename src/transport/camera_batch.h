@@ -38,6 +38,7 @@ class CameraBatch {
     };
 
     void begin(std::size_t i);
+    void trace_camera_rays();
     void follow(std::size_t i);
     void finish(std::size_t i, PathTrace* trace);
 

@@ -1,5 +1,5 @@
 // Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling; PBRT 4th ed., 13.4. Paths of a batch go in step, a
-// vertex at a time: each is what it would be by itself, but their numbers are drawn together and their rays are traced side by side.
+// vertex at a time: each is what it would be by itself, but their numbers are drawn together, and so are their shadow rays traced.
 #include "path_in_flight.h"
 
 #include <algorithm>
@@ -25,21 +25,6 @@ std::span<PathInFlight*> keep(std::span<PathInFlight*> paths, F goes_on) {
 }
 
 }  // namespace
-
-void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats) {
-    std::array<RawHit, kLanes> hits;
-    RayPacket rays;
-    for (std::size_t begin = 0; begin < paths.size(); begin += kLanes) {
-        auto const group = paths.subspan(begin, std::min(kLanes, paths.size() - begin));
-        rays.used = 0;
-        for (std::size_t i = 0; i < group.size(); ++i) rays.set(i, group[i]->walk.ray, kInfinity);
-        world.intersect(rays, kind, stats, hits);
-        for (std::size_t i = 0; i < group.size(); ++i) {
-            group[i]->met = hits[i];
-            group[i]->walk.met = &group[i]->met;
-        }
-    }
-}
 
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
     EmissionWeight const weight = !p.sample_lights    ? EmissionWeight::All
@@ -69,8 +54,6 @@ void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
         paths = keep(paths, [&](PathInFlight& path) {
             return scatter(path.c, path.walk, path.v) && survives(path.c, path.walk, p.roulette);
         });
-        if (!paths.empty())
-            trace_rays(paths.front()->c.world, RayKind::Bounce, paths, paths.front()->c.stats);
     }
 }
 

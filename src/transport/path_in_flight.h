@@ -11,7 +11,7 @@ namespace nephroid {
 struct PathInFlight {
     PathContext c;
     Walk walk;
-    RawHit met;  // what the walk's ray meets
+    RawHit met;  // what the camera's ray meets
     Vertex v;
     SeenLight seen;
     AovSample* aov = nullptr;  // of the first hit, where somebody asks
@@ -26,9 +26,6 @@ void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To t
     draw_2d(std::span<PathSampler* const>{samplers.data(), paths.size()}, dimension, drawn.data());
     for (std::size_t i = 0; i < paths.size(); ++i) to(*paths[i]) = drawn[i];
 }
-
-/// Traces the rays of the walks side by side: advance() finds what they meet.
-void trace_rays(World const& world, RayKind kind, std::span<PathInFlight* const> paths, RayStats& stats);
 
 /// Radiance along the camera rays of `paths`, which is in their `seen` (and c.shadows) in the end. All are at their first ray, whose hit is
 /// in `met`. The list is used up.

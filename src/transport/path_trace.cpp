@@ -25,6 +25,9 @@ void PathTrace::begins(PathContext const& c, Vec2 film, CameraRay const& camera)
 
 void PathTrace::ends(SeenLight const& seen, Vec3 value, float filter_weight) {
     record_.seen = seen;
+    // As the render adds them up: what was met, and to it what was lit.
+    record_.sum = met_;
+    record_.sum += lit_;
     record_.value = value;
     record_.weight = filter_weight;
     auto const rgb = [&](Spectrum s) { return job_->sensor()(s * record_.camera_weight, record_.lambda); };
@@ -52,7 +55,7 @@ void PathTrace::met_light(Walk const& walk, SurfaceHit const& hit, Spectrum seen
     m.light_pdf = light_pdf;
     m.path_class = walk.path_class.ends_on_light();
     m.contribution = seen;
-    record_.sum[m.path_class] += seen;
+    met_[m.path_class] += seen;
     record_.met.push_back(m);
 }
 
@@ -65,7 +68,7 @@ void PathTrace::met_sky(Walk const& walk, LightId light, Spectrum seen, float we
     m.light_pdf = light_pdf;
     m.path_class = walk.path_class.ends_on_light();
     m.contribution = seen;
-    record_.sum[m.path_class] += seen;
+    met_[m.path_class] += seen;
     record_.met.push_back(m);
 }
 
@@ -117,7 +120,7 @@ void PathTrace::lit(Walk const& walk, LightSample const& light, Spectrum direct,
     t.weight = weight;
     t.passing = passing;
     t.contribution = walk.beta * direct;
-    record_.sum[t.path_class] += t.contribution;
+    lit_[t.path_class] += t.contribution;
 }
 
 void PathTrace::scattered(PathContext const& c, Walk const& walk, Vertex const& v, BsdfSample const& s,

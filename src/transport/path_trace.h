@@ -43,6 +43,7 @@ class PathTrace {
     LightTried& try_light(Walk const& walk, LightSample const& light);
 
     PathRecord& record_;
+    SeenLight met_, lit_;  // emission that the path ran into, and light that was sampled
     RenderJob const* job_ = nullptr;
     int at_ = -1;  // the camera
 };

@@ -35,7 +35,7 @@ TraceSums trace_only(World const& world, std::span<RecordedRay const> rays) {
             sums.occluded += static_cast<std::uint64_t>(std::popcount(caster.any(packet, lanes)));
         } else {
             std::array<RawHit, kLanes> hits;
-            caster.nearest(packet, lanes, r.kind == RayKind::Camera, hits);
+            caster.nearest(packet, lanes, hits);
             for (RawHit const& hit : hits) met(hit);
         }
     }

@@ -420,8 +420,7 @@ bool RayCaster::any(Ray const& ray, float t_max) const {
     return r.tfar < 0.0f;
 }
 
-void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, bool coherent,
-                        std::array<RawHit, kLanes>& hits) const {
+void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit, kLanes>& hits) const {
     RTCRayHit8 rh;
     Valid valid;
     fill(rh.ray, rays, lanes, kAll, valid);
@@ -434,13 +433,13 @@ void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, bool coherent,
 #if NEPHROID_EMBREE == 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.flags = static_cast<RTCRayQueryFlags>((coherent ? RTC_RAY_QUERY_FLAG_COHERENT : 0) |
+    arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_COHERENT |
                                                     RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
     arguments.context = &context;
     arguments.filter = packet_filter;
     rtcIntersect8(valid.data(), impl_->groups.front(), &rh, &arguments);
 #else
-    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.filter = packet_filter;
     rtcIntersect8(valid.data(), impl_->groups.front(), &context, &rh);
 #endif

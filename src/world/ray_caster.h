@@ -38,10 +38,9 @@ class RayCaster {
     /// Is anything solid in the way?
     bool any(Ray const& ray, float t_max) const;
 
-    /// Of rays side by side: what each meets first; `coherent` ones go much the same way. Of several surfaces at one distance it is the one of the
+    /// Of rays side by side that go much the same way: what each meets first. Of several surfaces at one distance it is the one of the
     /// least (instance, geometry, primitive), so that a ray meets the same whatever is beside it.
-    void nearest(RayPacket const& rays, LaneMask lanes, bool coherent,
-                 std::array<RawHit, kLanes>& hits) const;
+    void nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit, kLanes>& hits) const;
     /// The lanes in whose way is anything solid.
     [[nodiscard]] LaneMask any(RayPacket const& rays, LaneMask lanes) const;
     /// False for rays that must not reach Embree.

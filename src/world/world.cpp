@@ -71,10 +71,9 @@ LaneMask counted(RayPacket const& rays, RayKind kind, RayStats& stats) {
 
 }  // namespace
 
-void World::intersect(RayPacket const& rays, RayKind kind, RayStats& stats,
-                      std::array<RawHit, kLanes>& hits) const {
-    LaneMask const lanes = counted(rays, kind, stats);
-    caster_->nearest(rays, lanes, kind == RayKind::Camera, hits);
+void World::intersect(RayPacket const& rays, RayStats& stats, std::array<RawHit, kLanes>& hits) const {
+    LaneMask const lanes = counted(rays, RayKind::Camera, stats);
+    caster_->nearest(rays, lanes, hits);
     for (RawHit const& hit : hits) stats.hits += static_cast<std::uint64_t>(hit.found);
 }
 

@@ -78,7 +78,6 @@ TEST_CASE("a ray meets the same whatever is beside it") {
         for (bool const camera : {true, false}) {
             CAPTURE(coincident);
             CAPTURE(camera);
-            RayKind const kind = camera ? RayKind::Camera : RayKind::Bounce;
             Rays random(7);
             std::uint64_t found = 0;
             std::uint64_t other = 0;
@@ -89,13 +88,13 @@ TEST_CASE("a ray meets the same whatever is beside it") {
                 std::size_t const size = i % 5 == 0 ? 1 + i % kLanes : kLanes;
                 for (std::size_t k = 0; k < size; ++k) together.set(k, some_ray(random, camera), kInfinity);
                 Hits hits;
-                world.intersect(together, kind, stats, hits);
+                world.intersect(together, stats, hits);
                 for (std::size_t k = 0; k < size; ++k) {
                     RayPacket lonely;
                     std::size_t const lane = (k + i) % kLanes;
                     lonely.set(lane, together.ray(k), kInfinity);
                     Hits alone_hits;
-                    world.intersect(lonely, kind, stats, alone_hits);
+                    world.intersect(lonely, stats, alone_hits);
                     found += hits[k].found ? 1 : 0;
                     other += bits(alone_hits[lane]) != bits(hits[k]) ? 1 : 0;
                 }
@@ -116,7 +115,7 @@ TEST_CASE("a ray in a packet meets what it meets by itself") {
         RayPacket packet;
         for (std::size_t k = 0; k < kLanes; ++k) packet.set(k, some_ray(random, i % 2 == 0), kInfinity);
         Hits hits;
-        world.intersect(packet, i % 3 == 0 ? RayKind::Bounce : RayKind::Camera, stats, hits);
+        world.intersect(packet, stats, hits);
         for (std::size_t k = 0; k < kLanes; ++k) {
             SurfaceHit in_packet;
             SurfaceHit single;
@@ -145,7 +144,7 @@ TEST_CASE("of surfaces at one distance the least number is met") {
             packet.set(k, {from, 0.3f * random.direction() - from}, kInfinity);
         }
         Hits hits;
-        world.intersect(packet, i % 3 == 0 ? RayKind::Bounce : RayKind::Camera, stats, hits);
+        world.intersect(packet, stats, hits);
         for (RawHit const& found : hits) REQUIRE((found.found && found.geometry == 0));
     }
 }
@@ -204,7 +203,7 @@ TEST_CASE("rays in a packet that are not numbers are refused and counted, and th
     packet.d.y[3] = kInfinity;
     packet.set(6, {{0, 0, 0}, {0, 0, 0}}, kInfinity);
     Hits hits;
-    world.intersect(packet, RayKind::Camera, stats, hits);
+    world.intersect(packet, stats, hits);
     CHECK(stats.rejected == 3);
     CHECK(stats.hits == 5);
     for (std::size_t k = 0; k < kLanes; ++k) CHECK(hits[k].found == (k != 1 && k != 3 && k != 6));

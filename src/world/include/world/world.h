@@ -86,9 +86,8 @@ class World {
     // --- rays -----------------------------------------------------------------------------------------------------------
     /// Nearest hit with 0 < t <= t_max. The direction need not be a unit vector.
     bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const;
-    /// The same of rays side by side, to be completed by surface(). What a ray meets does not depend on those beside it.
-    void intersect(RayPacket const& rays, RayKind kind, RayStats& stats,
-                   std::array<RawHit, kLanes>& hits) const;
+    /// The same of camera rays side by side, to be completed by surface(). What a ray meets does not depend on those beside it.
+    void intersect(RayPacket const& rays, RayStats& stats, std::array<RawHit, kLanes>& hits) const;
     /// The surface that was hit; false where there was none.
     bool surface(RawHit const& found, SurfaceHit& hit) const;
     /// How much of the surface is there at a hit, by its alpha: the probability with which a ray that comes by meets it, above 0.
@@ -186,7 +185,8 @@ class World {
     std::unique_ptr<LightTable> lights_;
     std::unique_ptr<WorldParts> parts_;
     Bounds3 bounds_;
-    Bounds3 emitting_;  // everything that emits, with room for rounding; all of space where something at infinity does
+    Bounds3
+        emitting_;  // everything that emits, with room for rounding; all of space where something at infinity does
     bool encloses_ = false;
     std::vector<Bounds3> bodies_;
     WorldCounts counts_;
