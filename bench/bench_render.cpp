@@ -54,8 +54,9 @@ void sweep(RenderJob const& job, int passes, Film& film, RayStats& stats) {
     auto const [x0, x1, y0, y1] = job.crop();
     for (int y = y0; y < y1; y += kTile)
         for (int x = x0; x < x1; x += kTile)
-            render_tile(job, PassWork{}, {x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)},
-                        {0, static_cast<std::uint64_t>(passes)}, film, stats);
+            for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(passes); ++i)
+                render_tile(job, PassWork{}, {x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)},
+                            {i, i + 1}, film, stats);
 }
 
 Figures measure(std::string const& name, World const& world, ColorMode color, Options const& o) {

@@ -37,6 +37,8 @@ struct Finished {
 /// In `folder`; what it says goes to a file there. Throws Error(Io) with its last words when it fails.
 Finished start(std::string const& command, fs::path const& folder) {
     fs::path const log = folder / "said.txt";
+    // An earlier picture must not be taken for the one of a program that writes none.
+    fs::remove(folder / "out.exr");
     auto const begin = std::chrono::steady_clock::now();
     int const code = std::system(
         fmt::format("cd {} && {} >{} 2>&1 </dev/null", quoted(folder.string()), command, quoted(log.string()))

@@ -16,7 +16,7 @@ std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float, Vec2 u, M
 }
 
 void make(DiffuseMaterial const& m, MaterialPoint const& p, Bsdf& bsdf) {
-    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{as_share(p.spectrum(m.reflectance, {}))});
+    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{clamp(p.spectrum(m.reflectance, {}), 0.0f, 1.0f)});
 }
 
 }  // namespace nephroid

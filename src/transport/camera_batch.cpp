@@ -38,14 +38,18 @@ Vec3 sensor_value(RenderJob const& job, SeenLight const& seen, float weight, Wav
 
 }  // namespace
 
-CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats)
-    : job_(job), film_(film), stats_(stats), shadows_(job.world(), stats) {
+template <std::size_t... I>
+CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats,
+                         std::index_sequence<I...>)
+    : job_(job),
+      film_(film),
+      stats_(stats),
+      paths_{PathInFlight{{job, job.world(), {}, samples_[I].sampler, stats}, {}, {}, {}, {}}...},
+      shadows_(job.world(), stats) {
     Integrator const& integrator = job.settings().integrator;
     bool const in_step = std::holds_alternative<PathIntegrator>(integrator);
-    paths_.reserve(kMostInStep);
     for (std::size_t i = 0; i < kMostInStep; ++i) {
-        PathInFlight& path = paths_.emplace_back(
-            PathInFlight{{job, job.world(), {}, samples_[i].sampler, stats}, {}, {}, {}, {}});
+        PathInFlight& path = paths_[i];
         path.c.hemisphere = hemisphere_of(integrator);
         path.c.lights = lights_of(integrator);
         path.c.photons = work.photons.get();
@@ -57,6 +61,8 @@ CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film,
         if (film.has_aovs()) path.aov = &aovs_[i];
     }
 }
+CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats)
+    : CameraBatch(job, work, film, stats, std::make_index_sequence<kMostInStep>{}) {}
 
 void CameraBatch::add(int x, int y, std::uint64_t pass, std::uint64_t sample) {
     Sample& s = samples_[size_];

@@ -1,4 +1,5 @@
-// Camera samples on their way together: their first rays are traced side by side, and so are those to the lights they sample.
+// Camera samples on their way together: numbers are drawn for many at once, their first rays are traced side by side, and so are those to
+// the lights they sample (docs/decisions/0010-paths-in-step.md).
 #pragma once
 
 #include "path_in_flight.h"
@@ -10,13 +11,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 namespace nephroid {
 
 class CameraBatch {
   public:
     CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats);
+    // Its paths know where its other parts are.
+    CameraBatch(CameraBatch const&) = delete;
+    CameraBatch& operator=(CameraBatch const&) = delete;
 
     /// Sample `sample` of pixel (x, y), which belongs to `pass`: a pure function of (world, settings, seed, pixel, sample), whatever else
     /// is in the batch. In the film after the next run(), which a full batch does by itself.
@@ -37,6 +41,9 @@ class CameraBatch {
         CameraRay camera;
     };
 
+    template <std::size_t... I>
+    CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats,
+                std::index_sequence<I...>);
     void begin(std::size_t i);
     void trace_camera_rays();
     void follow(std::size_t i);
@@ -49,7 +56,7 @@ class CameraBatch {
     std::size_t size_ = 0;
     std::array<Sample, kMostInStep> samples_;
     std::array<AovSample, kMostInStep> aovs_;
-    std::vector<PathInFlight> paths_;  // as many
+    std::array<PathInFlight, kMostInStep> paths_;
     NearestPhotons nearest_;
     ShadowQueue shadows_;
 };

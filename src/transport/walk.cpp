@@ -242,9 +242,12 @@ DirectLight choose_direct(PathContext& c, Walk const& walk, Vertex const& v, boo
 /// … with what is in the way.
 Spectrum arriving(PathContext& c, Walk const& walk, Vertex const& v, DirectLight const& direct) {
     float const passing = c.world.transmittance(v.hit, *direct.from, c.stats);
+    if (passing == 0.0f) {
+        if (c.trace) c.trace->occluded(walk, *direct.from);
+        return {};
+    }
     Spectrum const light = direct.light * passing;
-    if (c.trace && passing > 0.0f) c.trace->lit(walk, *direct.from, light, direct.weight, passing);
-    if (c.trace && passing == 0.0f) c.trace->occluded(walk, *direct.from);
+    if (c.trace) c.trace->lit(walk, *direct.from, light, direct.weight, passing);
     return light;
 }
 

@@ -46,7 +46,7 @@ class NearestPhotons;
 class PathTrace;    // path_trace.h
 class ShadowQueue;  // shadow_queue.h
 
-/// What a walk needs from outside; one per camera sample or light path.
+/// What a walk needs from outside; one per light path, or per place in a batch of camera samples.
 struct PathContext {
     RenderJob const& job;
     World const& world;

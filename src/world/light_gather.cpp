@@ -247,7 +247,7 @@ struct Gatherer {
     }
 
     float power_of(Emitter const& e, float intensity) const {
-        return intensity * kPi * (e.light->two_sided ? 2.0f : 1.0f);
+        return intensity * kPi * (e.two_sided ? 2.0f : 1.0f);
     }
 
     void add_box(LightEntry entry, Box const& box, ObjectRecord const& r, InstanceRecord const* where,

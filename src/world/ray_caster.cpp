@@ -446,6 +446,7 @@ void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit
     for (std::size_t i = 0; i < kLanes; ++i) {
         RawHit& hit = hits[i];
         hit.found = rh.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        if (!hit.found) continue;
         hit.t = context.met[i].t;
         hit.u = rh.hit.u[i];
         hit.v = rh.hit.v[i];

@@ -79,6 +79,43 @@ AreaLightSource "diffuse" "rgb L" [ 3 3 3 ] "bool twosided" true
 Shape "sphere" "float radius" 0.5 "float zmin" -0.3
 )";
 
+/// Bodies within bodies that absorb, surfaces that are there by chance or in part, and some that coincide.
+inline char const* const kBodies = R"(
+LookAt 0 1.5 -5  0 0 0  0 1 0
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 33 "integer yresolution" 22
+PixelFilter "gaussian"
+WorldBegin
+LightSource "infinite" "float scale" 0.3
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 9 8 7 ]
+  Translate 0 3 0
+  Rotate 90 1 0 0
+  Shape "disk" "float radius" 0.8
+AttributeEnd
+MakeNamedMaterial "grey" "string type" "diffuse" "rgb reflectance" [ .6 .6 .5 ]
+MakeNamedMaterial "air" "string type" "interface"
+MakeNamedMaterial "veil" "string type" "mix" "string materials" [ "grey" "air" ] "float amount" 0.5
+NamedMaterial "grey"
+Shape "bilinearmesh" "point3 P" [ -4 -1 -4  4 -1 -4  -4 -1 4  4 -1 4 ]
+Shape "trianglemesh" "point3 P" [ -4 -1 -4  4 -1 -4  4 -1 4  -4 -1 4 ] "integer indices" [ 0 1 2  0 2 3 ]
+Shape "trianglemesh" "point3 P" [ -4 -1 -4  4 -1 -4  4 -1 4  -4 -1 4 ] "integer indices" [ 1 2 3  1 3 0 ]
+AttributeBegin
+  Translate -1 0 0
+  Material "dielectric" "float eta" 1.5 "rgb absorption" [ .3 .1 .5 ] "integer priority" 1
+  Shape "sphere" "float radius" 0.8
+  Translate 0.5 0 0
+  Material "dielectric" "float eta" 1.3 "rgb absorption" [ .5 .5 .1 ] "integer priority" 2
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+Translate 1.4 0 0
+NamedMaterial "veil"
+Shape "sphere" "float radius" 0.7
+NamedMaterial "grey"
+Translate 0 0 -1.2
+Shape "trianglemesh" "point3 P" [ -.5 -1 0  .5 -1 0  0 1 0 ] "integer indices" [ 0 1 2 ] "float alpha" 0.5
+)";
+
 inline Scene read_text(std::string const& text) {
     return read_pbrt_string(text, "test.pbrt", "/nonexistent");
 }

@@ -33,7 +33,7 @@ void for_each_job(World const& world, F f) {
             }
 }
 
-std::vector<std::string> scenes() { return {kRoom, kCup, kChecks}; }
+std::vector<std::string> scenes() { return {kRoom, kCup, kChecks, kBodies}; }
 
 bool same_floats(Image const& a, Image const& b) {
     if (a.width() != b.width() || a.height() != b.height() || a.channels() != b.channels()) return false;

@@ -6,13 +6,6 @@
 
 namespace nephroid {
 
-/// What a texture says of a share of light, as a share: nothing where it is not a number.
-inline Spectrum as_share(Spectrum s) {
-    constexpr Spectrum::Lanes kZero{0, 0, 0, 0}, kOne{1, 1, 1, 1};
-    Spectrum::Lanes const above = s.v > kZero ? s.v : kZero;
-    return Spectrum(above < kOne ? above : kOne);
-}
-
 /// Lambertian reflection on the side(s) where both directions lie together.
 struct DiffuseBsdf {
     Spectrum reflectance;

@@ -20,7 +20,7 @@ bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wave
 
 /// The same for a material that is plain (MaterialData).
 inline void make_plain_bsdf(MaterialData const& data, Wavelengths const& lambda, Bsdf& bsdf) {
-    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{as_share(data.reflectance.sample(lambda))});
+    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{clamp(data.reflectance.sample(lambda), 0.0f, 1.0f)});
 }
 
 /// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.

@@ -44,11 +44,5 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
     return __builtin_bswap32(x);
 }
-constexpr std::uint64_t reverse_bits(std::uint64_t x) {
-    x = ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
-    x = ((x >> 2) & 0x3333333333333333u) | ((x & 0x3333333333333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0f0f0f0f0fu) | ((x & 0x0f0f0f0f0f0f0f0fu) << 4);
-    return __builtin_bswap64(x);
-}
 
 }  // namespace nephroid

@@ -30,7 +30,6 @@ struct RayPacket {
     FloatLanes t_max{};  // in lengths of the direction
     LaneMask used = 0;
 
-    [[nodiscard]] bool uses(std::size_t lane) const { return (used >> lane & 1u) != 0; }
     void set(std::size_t lane, Ray const& ray, float until) {
         o.set(lane, ray.o);
         d.set(lane, ray.d);
