@@ -109,8 +109,8 @@ int run(int argc, char** argv) {
                         ->check(CLI::PositiveNumber);
     auto* repetitions =
         app.add_option("--repetitions", plan.repetitions, "rounds (default 5)")->check(CLI::Range(1, 1000));
-    app.add_option("--scenes", scenes, "only these, by commas")->delimiter(',');
-    app.add_option("--renderers", only, "only these, by commas")->delimiter(',');
+    app.add_option("--scenes", scenes, "only these, by commas")->delimiter(',')->allow_extra_args(false);
+    app.add_option("--renderers", only, "only these, by commas")->delimiter(',')->allow_extra_args(false);
     app.add_option("--size", size_text, "WxH of every picture, for a try; nothing is bridged then");
     app.add_flag("--quick", quick, "1 second, 3 rounds, small references: some minutes");
     app.add_option("--keep", keep, "work in this folder, and leave scenes, pictures and logs there");

@@ -49,6 +49,7 @@ for option in "--scenes cornel" "--renderers pbrd" "--threads 0" "--seconds -1" 
     ! "$peers" $option "$work/none" >/dev/null 2>"$work/none.err" || fail "$option is taken"
     [[ ! -e $work/none ]] || fail "$option leaves a page"
 done
-{ "$peers" --scenes cornel "$work/none" 2>&1 || true; } | grep -q "there are cornell," || fail "names are not listed"
+{ "$peers" --scenes cornel "$work/none" 2>&1 || true; } | grep -q "cornel: .*there are cornell," || fail "names are not listed"
+{ "$peers" --scenes cornell --renderers pbrd "$work/none" 2>&1 || true; } | grep -q -- "--renderers pbrd:" || fail "the folder is taken for a name"
 "$peers" --help | grep -q "exit code" || fail "--help does not teach exit codes"
 exit "$bad"
