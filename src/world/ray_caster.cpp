@@ -335,6 +335,7 @@ void RayCaster::finish(std::vector<InstanceRecord> const& instances,
     unsigned const id = first_instance_;  // after the world's own objects
     impl_->scene.instances = &instances;
     impl_->scene.first_instance = first_instance_;
+    instanced_ = !instances.empty();
     for (std::size_t i = 0; i < instances.size(); ++i) {
         RTCGeometry const geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, impl_->groups[group_of_instance[i]]);
@@ -458,6 +459,14 @@ void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit
 }
 
 LaneMask RayCaster::any(RayPacket const& rays, LaneMask lanes) const {
+    LaneMask met = 0;
+    if (instanced_) {
+        for (LaneMask left = lanes; left != 0; left &= left - 1) {
+            auto const i = static_cast<std::size_t>(std::countr_zero(left));
+            met |= static_cast<LaneMask>(any(rays.ray(i), rays.t_max[i])) << i;
+        }
+        return met;
+    }
     RTCRay8 r;
     Valid valid;
     fill(r, rays, lanes, seen(Passage::Solid), valid);
@@ -468,7 +477,6 @@ LaneMask RayCaster::any(RayPacket const& rays, LaneMask lanes) const {
     begin(context);
     rtcOccluded8(valid.data(), impl_->groups.front(), &context, &r);
 #endif
-    LaneMask met = 0;
     for (std::size_t i = 0; i < kLanes; ++i) met |= static_cast<LaneMask>(r.tfar[i] < 0.0f) << i;
     return met & lanes;
 }
