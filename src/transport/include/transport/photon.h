@@ -84,9 +84,7 @@ class Photon {
     /// Along n, not a unit vector: less work where only the angle to it matters.
     [[nodiscard]] Vec3 along_n() const { return unfold_direction(n_); }
     /// n as it is kept: equal for photons of one normal.
-    [[nodiscard]] std::uint32_t packed_n() const {
-        return static_cast<std::uint32_t>(n_[0]) << 8 | n_[1];
-    }
+    [[nodiscard]] std::uint32_t packed_n() const { return static_cast<std::uint32_t>(n_[0]) << 8 | n_[1]; }
     [[nodiscard]] Spectrum power() const {
         // All lanes at once, which compilers do not see by themselves.
         typedef std::uint16_t Ratios __attribute__((vector_size(8)));
