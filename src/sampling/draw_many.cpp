@@ -1,4 +1,5 @@
 // Draws of many paths at once: the arithmetic of sobol.h and hash.h eight paths a vector. No tables: a vector would gather from them one by one.
+#include "math/lanes.h"
 #include "sampling/path_sampler.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::size_t kLanes = 8;
 typedef std::uint32_t Bits __attribute__((vector_size(32)));
 typedef std::int32_t Ints __attribute__((vector_size(32)));
 typedef float Floats __attribute__((vector_size(32)));

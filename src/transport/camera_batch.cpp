@@ -108,11 +108,16 @@ void CameraBatch::run(PathTrace* trace) {
         if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
     }
     trace_camera_rays();
-    if (auto const* p = std::get_if<PathIntegrator>(&job_.settings().integrator)) {
-        follow_paths(*p, {going.data(), size_});
-    } else {
-        for (std::size_t i = 0; i < size_; ++i) follow(i);
-    }
+    match(
+        job_.settings().integrator,
+        [&](PathIntegrator const& path) {
+            follow_paths(path, {going.data(), size_});
+        },
+        [](LightPathIntegrator const&) {},  // draws its picture elsewhere
+        [&](auto const& integrator) {
+            for (std::size_t i = 0; i < size_; ++i)
+                paths_[i].seen = radiance(integrator, paths_[i].c, samples_[i].camera.ray, paths_[i].aov);
+        });
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);
     size_ = 0;
@@ -128,18 +133,6 @@ void CameraBatch::trace_camera_rays() {
         job_.world().intersect(rays, stats_, hits);
         for (std::size_t i = 0; i < n; ++i) paths_[begin + i].met = hits[i];
     }
-}
-
-void CameraBatch::follow(std::size_t i) {
-    PathInFlight& path = paths_[i];
-    path.seen = match(
-        job_.settings().integrator,
-        // One draws its picture elsewhere, the other is followed in step.
-        [](LightPathIntegrator const&) { return SeenLight{}; },
-        [](PathIntegrator const&) { return SeenLight{}; },
-        [&](auto const& integrator) {
-            return radiance(integrator, path.c, samples_[i].camera.ray, path.aov);
-        });
 }
 
 void CameraBatch::finish(std::size_t i, PathTrace* trace) {

@@ -46,7 +46,6 @@ class CameraBatch {
                 std::index_sequence<I...>);
     void begin(std::size_t i);
     void trace_camera_rays();
-    void follow(std::size_t i);
     void finish(std::size_t i, PathTrace* trace);
 
     RenderJob const& job_;

@@ -2,9 +2,6 @@
 // vertex at a time: each is what it would be by itself, but their numbers are drawn together, and so are their shadow rays traced.
 #include "path_in_flight.h"
 
-#include <algorithm>
-#include <array>
-
 namespace nephroid {
 
 namespace {

@@ -92,7 +92,7 @@ class PathSampler {
     std::uint32_t dimension_ = 0;
 };
 
-/// The same draw of many paths of one sequence: out[i] is what paths[i]->at(dimension), next_2d() gives, in a third of the time.
+/// The same draw of many paths of one sequence: out[i] is what paths[i]->at(dimension), next_2d() gives, for half of the instructions.
 void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out);
 
 /// Element i of a random permutation of 0..n-1 named by `key` (Kensler 2013, "Correlated Multi-Jittered Sampling").

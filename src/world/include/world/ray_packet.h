@@ -2,6 +2,7 @@
 // single rays use: without branches, the compiler makes one instruction of eight, and the bits are the same.
 #pragma once
 
+#include "math/lanes.h"
 #include "math/ray.h"
 
 #include <array>
@@ -10,7 +11,6 @@
 
 namespace nephroid {
 
-inline constexpr std::size_t kLanes = 8;
 /// One bit a lane.
 using LaneMask = std::uint32_t;
 

@@ -5,8 +5,6 @@
 #include "world/hit.h"
 #include "world/ray_packet.h"
 
-#include <algorithm>
-
 namespace nephroid {
 
 /// What is in its way up to t_max keeps the light off.
