@@ -36,32 +36,58 @@ Floats to_unit_float(Bits x) {
 
 }  // namespace
 
-void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out) {
-    for (std::size_t first = 0; first < paths.size(); first += kLanes) {
-        std::size_t const n = std::min(kLanes, paths.size() - first);
-        if (paths[first]->sequence_->kind != SequenceKind::Sobol || n < 3) {
-            for (std::size_t i = first; i < first + n; ++i) {
-                paths[i]->at(dimension);
-                out[i] = paths[i]->next_2d();
+/// What draws of the same dimension have in common.
+class ManyDraws {
+  public:
+    /// several(where the first lane's number goes, the shuffled indices, the scrambles), or alone(sampler, where): what is too little for
+    /// a vector, or of another sequence.
+    template <class Several, class Alone>
+    static void draw(std::span<PathSampler* const> paths, std::uint32_t dimension, Several several,
+                     Alone alone) {
+        for (std::size_t first = 0; first < paths.size(); first += kLanes) {
+            std::size_t const n = std::min(kLanes, paths.size() - first);
+            if (paths[first]->sequence_->kind != SequenceKind::Sobol || n < 3) {
+                for (std::size_t i = first; i < first + n; ++i) {
+                    paths[i]->at(dimension);
+                    alone(*paths[i], i);
+                }
+                continue;
             }
-            continue;
+            Bits begun{}, shuffle{}, scramble{};
+            for (std::size_t i = 0; i < n; ++i) {
+                PathSampler& s = *paths[first + i];
+                s.at(dimension);
+                std::uint64_t const key = s.next_key();
+                begun[i] = s.sobol_.begun();
+                shuffle[i] = static_cast<std::uint32_t>(key);
+                scramble[i] = static_cast<std::uint32_t>(key >> 32);
+            }
+            several(first, n, reverse_bits(owen_scramble_end(begun, shuffle)), scramble);
         }
-        Bits begun{}, shuffle{}, scramble{};
-        for (std::size_t i = 0; i < n; ++i) {
-            PathSampler& s = *paths[first + i];
-            s.at(dimension);
-            std::uint64_t const key = s.next_key();
-            begun[i] = s.sobol_.begun();
-            shuffle[i] = static_cast<std::uint32_t>(key);
-            scramble[i] = static_cast<std::uint32_t>(key >> 32);
-        }
-        Bits const index = reverse_bits(owen_scramble_end(begun, shuffle));
-        Bits const a = owen_scramble_reversed(index, scramble);
-        Bits const b = owen_scramble_reversed(sobol_second_reversed(index), mix32(scramble));
-        Floats const x = to_unit_float(reverse_bits(a));
-        Floats const y = to_unit_float(reverse_bits(b));
-        for (std::size_t i = 0; i < n; ++i) out[first + i] = {x[i], y[i]};
     }
+};
+
+void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out) {
+    ManyDraws::draw(
+        paths, dimension,
+        [&](std::size_t first, std::size_t n, Bits index, Bits scramble) {
+            Bits const a = owen_scramble_reversed(index, scramble);
+            Bits const b = owen_scramble_reversed(sobol_second_reversed(index), mix32(scramble));
+            Floats const x = to_unit_float(reverse_bits(a));
+            Floats const y = to_unit_float(reverse_bits(b));
+            for (std::size_t i = 0; i < n; ++i) out[first + i] = {x[i], y[i]};
+        },
+        [&](PathSampler& s, std::size_t i) { out[i] = s.next_2d(); });
+}
+
+void draw_1d(std::span<PathSampler* const> paths, std::uint32_t dimension, float* out) {
+    ManyDraws::draw(
+        paths, dimension,
+        [&](std::size_t first, std::size_t n, Bits index, Bits scramble) {
+            Floats const x = to_unit_float(reverse_bits(owen_scramble_reversed(index, scramble)));
+            for (std::size_t i = 0; i < n; ++i) out[first + i] = x[i];
+        },
+        [&](PathSampler& s, std::size_t i) { out[i] = s.next_1d(); });
 }
 
 }  // namespace nephroid

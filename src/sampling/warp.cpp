@@ -50,21 +50,6 @@ Vec2 wrap_equal_area_square(Vec2 uv) {
     return uv;
 }
 
-Vec2 sample_bilinear(Vec2 u, float const w[4]) {
-    float const y = sample_linear(u.y, w[0] + w[1], w[2] + w[3]);
-    float const x = sample_linear(u.x, lerp(y, w[0], w[2]), lerp(y, w[1], w[3]));
-    return {x, y};
-}
-
-float bilinear_pdf(Vec2 p, float const w[4]) {
-    if (p.x < 0.0f || p.x > 1.0f || p.y < 0.0f || p.y > 1.0f) return 0.0f;
-    float const sum = w[0] + w[1] + w[2] + w[3];
-    if (sum == 0.0f) return 1.0f;
-    float const value =
-        (1 - p.x) * (1 - p.y) * w[0] + p.x * (1 - p.y) * w[1] + (1 - p.x) * p.y * w[2] + p.x * p.y * w[3];
-    return 4.0f * value / sum;
-}
-
 Vec2 invert_bilinear(Vec2 p, float const w[4]) {
     return {invert_linear(p.x, lerp(p.y, w[0], w[2]), lerp(p.y, w[1], w[3])),
             invert_linear(p.y, w[0] + w[1], w[2] + w[3])};

@@ -18,15 +18,18 @@ class ShadowQueue {
 
     /// Nothing has arrived at any path.
     void begin() { arrived_ = {}; }
-    /// `light` arrives at a path, below kMostInStep, unless something solid is between its vertex of that number, `from`, and the light,
-    /// `to`.
-    void wait(std::uint32_t path, LightClass as, Spectrum light, SurfaceHit const& from,
-              LightSample const& to, std::uint32_t vertex) {
+    /// `light` arrives at a path, below kMostInStep, unless something solid is in the way of the ray from its vertex of that number.
+    void wait(std::uint32_t path, LightClass as, Spectrum light, ShadowRay const& shadow,
+              std::uint32_t vertex) {
+        if (!shadow.lit) {
+            ++stats_.rays[static_cast<std::size_t>(RayKind::Shadow)];
+            return;
+        }
         std::size_t const i = add(path, as, light, false);
         Open& open = open_[vertex < kDepths ? vertex : kDepths - 1];
-        open.entry[open.ends.size()] = static_cast<std::uint16_t>(i);
-        open.ends.add(from, to);
-        if (open.ends.full()) trace(open);
+        open.entry[open.size] = static_cast<std::uint16_t>(i);
+        open.rays.set(open.size, shadow.ray, shadow.t_max);
+        if (++open.size == kLanes) trace(open);
         if (size_ == kMost) settle();
     }
     /// `light` is known to arrive.
@@ -37,7 +40,7 @@ class ShadowQueue {
     /// Traces what is left. Sums are by path and in the order in which it was put here, whatever else is in the queue.
     void settle() {
         for (Open& open : open_)
-            if (open.ends.size() > 0) trace(open);
+            if (open.size > 0) trace(open);
         for (std::size_t i = 0; i < size_; ++i) {
             Entry const& e = entries_[i];
             if (arrives_[i]) arrived_[e.path][e.as] += e.light;
@@ -55,7 +58,8 @@ class ShadowQueue {
     };
     /// Rays that wait for others to go with.
     struct Open {
-        ShadowPacket ends;
+        RayPacket rays;
+        std::size_t size = 0;
         std::array<std::uint16_t, kLanes> entry;
     };
     // From a path's first vertex rays go much the same way; from the others it is as well to keep those of one number together.
@@ -68,9 +72,10 @@ class ShadowQueue {
         return size_++;
     }
     void trace(Open& open) {
-        LaneMask const free = world_.unoccluded(open.ends, stats_);
-        for (std::size_t i = 0; i < open.ends.size(); ++i) arrives_[open.entry[i]] = (free >> i & 1u) != 0;
-        open.ends.clear();
+        LaneMask const free = world_.unoccluded(open.rays, stats_);
+        for (std::size_t i = 0; i < open.size; ++i) arrives_[open.entry[i]] = (free >> i & 1u) != 0;
+        open.rays.used = 0;
+        open.size = 0;
     }
 
     World const& world_;

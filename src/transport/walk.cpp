@@ -185,16 +185,13 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 
 bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     if (!v.material.valid()) return false;
-    MaterialData const& data = c.world.assets().data(v.material);
-    if (data.plain) {
+    if (prepare_in_lanes(c, v)) {
         // Most of what paths meet.
-        make_plain_bsdf(data, c.lambda, v.bsdf);
-        v.is = {};
-        v.frame = frame_from_z(v.hit.s.ns);
-    } else if (!prepare_any(c, walk, v, data)) {
-        return false;
+        orient(walk, v);
+    } else {
+        if (!prepare_any(c, walk, v, c.world.assets().data(v.material))) return false;
+        v.wo_local = v.frame.to_local(-walk.ray.d);
     }
-    v.wo_local = v.frame.to_local(-walk.ray.d);
     if (c.trace) c.trace->scatters(v);
     return true;
 }
@@ -268,7 +265,7 @@ void add_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis, See
     } else if (c.trace || c.world.passes_partly()) {
         c.shadows->arrive(c.path, as, walk.beta * arriving(c, walk, v, direct));
     } else {
-        c.shadows->wait(c.path, as, walk.beta * direct.light, v.hit, *direct.from, walk.vertex);
+        c.shadows->wait(c.path, as, walk.beta * direct.light, shadow_ray(v.hit, *direct.from), walk.vertex);
     }
 }
 
@@ -277,16 +274,13 @@ namespace {
 /// The body of follow(), in line where most paths go on.
 [[gnu::always_inline]] inline bool go_on(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     Vec3 const wi = normalize(v.frame.from_local(s.wi));
-    walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf *
-                        shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng));
+    bool const goes_on =
+        weigh(c, walk,
+              s.f * (abs_cos_theta(s.wi) / s.pdf *
+                     shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng)));
     if (s.keep_hero) keep_hero(walk);
-    Spectrum const beta = walk.beta;
     if (c.trace) c.trace->scattered(c, walk, v, s, wi);
-    if (beta.is_black()) return false;
-    if (!beta.is_finite()) {
-        c.tainted = true;
-        return false;
-    }
+    if (!goes_on) return false;
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
@@ -320,16 +314,9 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
 }
 
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {
-    if (roulette.kind == RouletteKind::None) return true;
-    // The walk has just moved on: the numbers are those of the vertex it left.
-    std::uint32_t const vertex = walk.vertex - 1;
-    float q = roulette.alpha;
-    if (roulette.kind == RouletteKind::Throughput) {
-        float const throughput = walk.beta.max() * walk.eta_scale * (walk.hero_only ? 0.25f : 1.0f);
-        if (vertex == 0 || throughput >= 1.0f) return true;
-        q = throughput;
-    }
-    c.sampler.at(dimension::of(vertex, dimension::kRoulette));
+    float const q = survival(walk, roulette);
+    if (q >= 1.0f) return true;
+    c.sampler.at(roulette_dimension(walk));
     bool const dies = c.sampler.next_1d() >= q;
     if (c.trace) c.trace->chance(q, dies);
     if (dies) return false;

@@ -122,6 +122,7 @@ struct Vertex {
     BsdfTraits is;  // of bsdf
     bool drawn_ahead = false;
     Drawn drawn;  // if so
+    bool in_lanes = false;  // scatters together with others (diffuse_lanes.h): neither frame nor wo_local is filled
 };
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
@@ -155,6 +156,20 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 
 /// Scattering at v.hit; false when there is none (no material). May end the path's other wavelengths.
 bool prepare(PathContext& c, Walk& walk, Vertex& v);
+/// The same where a diffuse material of one colour may scatter in lanes; false, and nothing done, elsewhere.
+inline bool prepare_in_lanes(PathContext const& c, Vertex& v) {
+    if (!v.material.valid()) return false;
+    MaterialData const& data = c.world.assets().data(v.material);
+    if (!data.plain) return false;
+    make_plain_bsdf(data, c.lambda, v.bsdf);
+    v.is = {};
+    return true;
+}
+/// What was left out then, for the functions that take one vertex.
+inline void orient(Walk const& walk, Vertex& v) {
+    v.frame = frame_from_z(v.hit.s.ns);
+    v.wo_local = v.frame.to_local(-walk.ray.d);
+}
 
 /// One light sampled from the vertex: f |cos| Li / pdf, weighed by MIS unless `mis` is off. Without beta.
 Spectrum sample_direct(PathContext& c, Walk const& walk, Vertex const& v, bool mis);
@@ -167,8 +182,28 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v);
 /// The same with a given sample, as of a branch of Whitted's tree.
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s);
 
-/// Russian roulette (Arvo & Kirk 1990): ends the walk, or makes up for those that were ended.
+/// beta times the weight of a direction. False when the path ends: there is nothing left, or no number.
+inline bool weigh(PathContext& c, Walk& walk, Spectrum weight) {
+    walk.beta *= weight;
+    if (walk.beta.is_black()) return false;
+    if (walk.beta.is_finite()) return true;
+    c.tainted = true;
+    return false;
+}
+
+/// Russian roulette (Arvo & Kirk 1990): ends the walk, which has just moved on, or makes up for those that were ended.
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette);
+/// The probability with which it does not end; where that is 1 or more, nothing is drawn.
+inline float survival(Walk const& walk, Roulette const& roulette) {
+    if (roulette.kind == RouletteKind::None) return 1.0f;
+    if (roulette.kind == RouletteKind::Fixed) return roulette.alpha;
+    if (walk.vertex == 1) return 1.0f;
+    return walk.beta.max() * walk.eta_scale * (walk.hero_only ? 0.25f : 1.0f);
+}
+/// The dimension of its number: of the vertex that the walk has left.
+inline std::uint32_t roulette_dimension(Walk const& walk) {
+    return dimension::of(walk.vertex - 1, dimension::kRoulette);
+}
 
 /// The bodies that light along w is in, after leaving v.
 Interiors beyond(PathContext const& c, Walk const& walk, Vertex const& v, Vec3 w);

@@ -116,6 +116,13 @@ class LightTable {
         return entries.size() == 1 ? Choice{0, by_power.empty() ? 0.0f : 1.0f} : choose_among(to, how, u);
     }
     [[nodiscard]] float pmf(Receiver const& to, LightChoice how, std::uint32_t entry) const;
+    /// There is one, flat, which shines everywhere the same and is seen by rays.
+    [[nodiscard]] bool lone_flat() const {
+        if (entries.size() != 1 || by_power.empty()) return false;
+        LightEntry const& e = entries.front();
+        return e.flat() && e.picture == LightEntry::kNone && emitters[e.emitter].even &&
+               !emitters[e.emitter].unseen;
+    }
     [[nodiscard]] std::size_t bytes() const;
 
   private:

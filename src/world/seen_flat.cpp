@@ -127,34 +127,13 @@ float near_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p) {
 
 namespace {
 
-/// What the four corners of the square send to the receiver: cos cos / r^2, all at once.
+/// All four corners at once.
 std::array<float, 4> corner_weights(LightEntry const& e, Receiver const& to) {
     using Lanes = Spectrum::Lanes;
-    // Of the triangle's square the corner (1,1) is the middle of the edge (sampling/warp.h, square_to_triangle).
-    float const last = e.shape == LightShape::Triangle ? 0.5f : 1.0f;
-    Lanes const s{0, 1, 0, last};
-    Lanes const t{0, 0, 1, last};
-    Vec3 const c = e.corner - to.p;
-    Lanes const x = c.x + s * e.edge1.x + t * e.edge2.x;
-    Lanes const y = c.y + s * e.edge1.y + t * e.edge2.y;
-    Lanes const z = c.z + s * e.edge1.z + t * e.edge2.z;
-    Lanes const r2 = x * x + y * y + z * z;
-    // (n . v)(n_light . v) / r^4; the height over the light's plane is the same for all. Distances in units of the first one: their
-    // fourth powers would leave the range of floats.
-    Lanes const q = r2 * (1.0f / r2[0]);
-    Lanes w = 1.0f / (q * q);
-    if (to.n != Vec3(0)) {
-        Lanes cosine = x * to.n.x + y * to.n.y + z * to.n.z;
-        if (to.both_sides) {
-            cosine = cosine < 0.0f ? -cosine : cosine;
-        } else {
-            cosine = cosine < 0.0f ? cosine * 0.0f : cosine;
-        }
-        w *= cosine;
-    }
-    // What rounding hides stays possible.
-    float const least = 1e-3f * (w[0] + w[1] + w[2] + w[3]);
-    return {w[0] + least, w[1] + least, w[2] + least, w[3] + least};
+    float const last = last_corner(e);
+    SeenCorner<Lanes> const corners(e, to, Lanes{0, 1, 0, last}, Lanes{0, 0, 1, last});
+    Lanes const w = corners.weight(to, 1.0f / corners.r2[0]);
+    return with_floor(w[0], w[1], w[2], w[3]);
 }
 
 }  // namespace

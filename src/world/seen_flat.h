@@ -3,18 +3,21 @@
 
 #include "light_table.h"
 
+#include <array>
+
 namespace nephroid {
 
 /// How a flat emitter is worth sampling from a receiver (docs/decisions/0005): by solid angle where it is large or much of it lies
 /// along the line of sight; by area, with a density that is bilinear between what its corners send, where that is little; and by area
 /// alone where it is next to nothing.
-enum class FlatView : std::uint8_t { Near, Between, Far };
+enum class FlatView : std::uint32_t { Near, Between, Far };
 inline FlatView view_of(LightEntry const& e, Receiver const& to) {
     Vec3 const v = e.centroid - to.p;
     float const d2 = dot(v, v);
     float const along = abs_dot(e.edge1, v) + abs_dot(e.edge2, v);
-    if (!(e.size2 > 0.3f * d2 || along > 0.35f * d2)) return FlatView::Far;
-    return e.size2 > d2 || along > 0.5f * d2 ? FlatView::Near : FlatView::Between;
+    bool const near = (e.size2 > d2) | (along > 0.5f * d2);
+    bool const between = (e.size2 > 0.3f * d2) | (along > 0.35f * d2);
+    return near ? FlatView::Near : between ? FlatView::Between : FlatView::Far;
 }
 
 /// (s, t) of a point of the plane: corner + s edge1 + t edge2.
@@ -24,6 +27,37 @@ Vec2 coordinates(LightEntry const& e, Vec3 p);
 bool sample_near_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st, float& pdf);
 /// The density with which it draws p.
 float near_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p);
+
+/// What corners of the square send to the receiver, (n . v)(n_light . v) / r^4; the height over the light's plane is the same for all. F:
+/// a float, or a vector of them for several corners.
+template <class F>
+struct SeenCorner {
+    F r2, cosine;
+
+    SeenCorner(LightEntry const& e, Receiver const& to, F s, F t) {
+        Vec3 const c = e.corner - to.p;
+        F const x = c.x + s * e.edge1.x + t * e.edge2.x;
+        F const y = c.y + s * e.edge1.y + t * e.edge2.y;
+        F const z = c.z + s * e.edge1.z + t * e.edge2.z;
+        r2 = x * x + y * y + z * z;
+        cosine = x * to.n.x + y * to.n.y + z * to.n.z;
+        F const behind = to.both_sides ? -cosine : cosine * 0.0f;
+        cosine = cosine < 0.0f ? behind : cosine;
+    }
+    /// `unit`: 1 / the squared distance of the first corner. The fourth powers of distances would leave the range of floats.
+    [[nodiscard]] F weight(Receiver const& to, float unit) const {
+        F const q = r2 * unit;
+        F const w = 1.0f / (q * q);
+        return (to.n.x != 0.0f) | (to.n.y != 0.0f) | (to.n.z != 0.0f) ? w * cosine : w;
+    }
+};
+/// Of the triangle's square the corner (1,1) is the middle of the edge (sampling/warp.h, square_to_triangle).
+inline float last_corner(LightEntry const& e) { return e.shape == LightShape::Triangle ? 0.5f : 1.0f; }
+/// Bilinear weights; what rounding hides stays possible.
+inline std::array<float, 4> with_floor(float a, float b, float c, float d) {
+    float const least = 1e-3f * (a + b + c + d);
+    return {a + least, b + least, c + least, d + least};
+}
 
 /// The square that the area sampler wants, bent towards the corners that send most; `pdf` over the square.
 Vec2 bend_square(LightEntry const& e, Receiver const& to, Vec2 u, float& pdf);

@@ -108,10 +108,7 @@ float World::transmittance(SurfaceHit const& from, LightSample const& to, RaySta
     return parts_->partly ? passing_share(shadow.ray, shadow.t_max, stats) : 1.0f;
 }
 
-LaneMask World::unoccluded(ShadowPacket const& ends, RayStats& stats) const {
-    RayPacket const rays = ends.rays();
-    stats.rays[static_cast<std::size_t>(RayKind::Shadow)] +=
-        ends.size() - static_cast<std::size_t>(std::popcount(rays.used));
+LaneMask World::unoccluded(RayPacket const& rays, RayStats& stats) const {
     LaneMask const lanes = counted(rays, RayKind::Shadow, stats);
     return lanes & ~caster_->any(rays, lanes);
 }

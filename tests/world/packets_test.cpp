@@ -167,7 +167,7 @@ TEST_CASE("eight shadow rays at once are as dark as one by one") {
         std::uint64_t other = 0;
         std::uint64_t const n = tries(10'000);
         for (std::uint64_t i = 0; i < n; ++i) {
-            ShadowPacket packet;
+            RayPacket packet;
             std::array<float, kLanes> by_itself{};
             std::size_t const size = i % 5 == 0 ? 1 + i % kLanes : kLanes;
             for (std::size_t k = 0; k < size; ++k) {
@@ -183,7 +183,9 @@ TEST_CASE("eight shadow rays at once are as dark as one by one") {
                 if (world.intersect(some_ray(random, false), kInfinity, RayKind::Bounce, single, lamp) &&
                     random.bits() % 2 == 0)
                     to.p = lamp.s.p, to.p_error = lamp.s.p_error, to.n = lamp.s.ng;
-                packet.add(from, to);
+                ShadowRay const shadow = shadow_ray(from, to);
+                if (shadow.lit) packet.set(k, shadow.ray, shadow.t_max);
+                else ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
                 by_itself[k] = world.transmittance(from, to, single);
             }
             LaneMask const lit = world.unoccluded(packet, stats);

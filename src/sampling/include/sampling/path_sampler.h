@@ -74,7 +74,7 @@ class PathSampler {
         return to_unit_double(static_cast<std::uint64_t>(sobol_1d_bits(sobol_, key)) << 32 | low);
     }
 
-    friend void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out);
+    friend class ManyDraws;  // draw_1d, draw_2d of many
 
   private:
     std::uint64_t next_key() { return mix64(key_ + 0x9e3779b97f4a7c15ull * ++dimension_); }
@@ -94,6 +94,8 @@ class PathSampler {
 
 /// The same draw of many paths of one sequence: out[i] is what paths[i]->at(dimension), next_2d() gives, for half of the instructions.
 void draw_2d(std::span<PathSampler* const> paths, std::uint32_t dimension, Vec2* out);
+/// … and what next_1d() gives.
+void draw_1d(std::span<PathSampler* const> paths, std::uint32_t dimension, float* out);
 
 /// Element i of a random permutation of 0..n-1 named by `key` (Kensler 2013, "Correlated Multi-Jittered Sampling").
 std::uint32_t permutation_element(std::uint32_t i, std::uint32_t n, std::uint32_t key);

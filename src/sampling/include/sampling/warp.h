@@ -109,12 +109,12 @@ Vec2 equal_area_sphere_to_square(Vec3 d);
 Vec2 wrap_equal_area_square(Vec2 uv);
 
 // --- one-dimensional pieces -----------------------------------------------------------------------------------------
-/// Linear density between a at 0 and b at 1; uniform where both are 0.
+/// Linear density between a at 0 and b at 1; uniform where both are 0. Without a branch, so that lanes may use it.
 inline float sample_linear(float u, float a, float b) {
-    if (a + b == 0.0f) return u;
-    if (u == 0.0f && a == 0.0f) return 0.0f;
     float const x = u * (a + b) / (a + std::sqrt(lerp(u, a * a, b * b)));
-    return x < kOneMinusEpsilon ? x : kOneMinusEpsilon;
+    bool const at_zero = (u == 0.0f) & (a == 0.0f);  // 0 / 0
+    float const inside = at_zero ? 0.0f : (x < kOneMinusEpsilon ? x : kOneMinusEpsilon);
+    return a + b == 0.0f ? u : inside;
 }
 inline float linear_pdf(float x, float a, float b) {
     if (x < 0.0f || x > 1.0f) return 0.0f;
@@ -132,8 +132,18 @@ inline float sample_tent(float u, float r) {
 inline float tent_pdf(float x, float r) { return std::abs(x) >= r ? 0.0f : 1.0f / r - std::abs(x) / (r * r); }
 
 /// Bilinear density over the unit square with corner values w[0]=(0,0), w[1]=(1,0), w[2]=(0,1), w[3]=(1,1).
-Vec2 sample_bilinear(Vec2 u, float const w[4]);
-float bilinear_pdf(Vec2 p, float const w[4]);
+inline Vec2 sample_bilinear(Vec2 u, float const w[4]) {
+    float const y = sample_linear(u.y, w[0] + w[1], w[2] + w[3]);
+    float const x = sample_linear(u.x, lerp(y, w[0], w[2]), lerp(y, w[1], w[3]));
+    return {x, y};
+}
+inline float bilinear_pdf(Vec2 p, float const w[4]) {
+    float const sum = w[0] + w[1] + w[2] + w[3];
+    float const value =
+        (1 - p.x) * (1 - p.y) * w[0] + p.x * (1 - p.y) * w[1] + (1 - p.x) * p.y * w[2] + p.x * p.y * w[3];
+    float const inside = sum == 0.0f ? 1.0f : 4.0f * value / sum;
+    return (p.x < 0.0f) | (p.x > 1.0f) | (p.y < 0.0f) | (p.y > 1.0f) ? 0.0f : inside;
+}
 /// The u of which sample_bilinear makes p.
 Vec2 invert_bilinear(Vec2 p, float const w[4]);
 /// Weights for drawing by solid angle times the receiver's cosine: a polygon's map (spherical_triangle.h,

@@ -3,7 +3,6 @@
 
 #include "model/light.h"
 #include "world/hit.h"
-#include "world/ray_packet.h"
 
 namespace nephroid {
 
@@ -32,49 +31,6 @@ inline ShadowRay shadow_ray(Vec3 p, Vec3 p_error, Vec3 n, Vec3 to, Vec3 to_error
 inline ShadowRay shadow_ray(SurfaceHit const& from, LightSample const& to) {
     if (to.at_infinity) return {from.spawn(to.wi), kInfinity, true};
     return shadow_ray(from.s.p, from.s.p_error, from.s.ng, to.p, to.p_error, to.n);
-}
-
-/// Ends of up to eight shadow rays.
-class ShadowPacket {
-  public:
-    [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool full() const { return size_ == kLanes; }
-    void clear() { size_ = 0, at_infinity_ = 0; }
-    void add(SurfaceHit const& from, LightSample const& to) {
-        p_.set(size_, from.s.p);
-        p_error_.set(size_, from.s.p_error);
-        n_.set(size_, from.s.ng);
-        to_.set(size_, to.at_infinity ? to.wi : to.p);
-        to_error_.set(size_, to.p_error);
-        to_n_.set(size_, to.n);
-        at_infinity_ |= static_cast<LaneMask>(to.at_infinity) << size_;
-        ++size_;
-    }
-    /// Their rays: as shadow_ray() makes them, one by one. Those that cannot be lit are not used.
-    [[nodiscard]] RayPacket rays() const;
-
-  private:
-    Vec3Lanes p_, p_error_, n_;
-    Vec3Lanes to_, to_error_, to_n_;  // to_: of a light at infinity, the direction
-    LaneMask at_infinity_ = 0;
-    std::size_t size_ = 0;
-};
-
-inline RayPacket ShadowPacket::rays() const {
-    RayPacket rays;
-    std::array<std::uint32_t, kLanes> lit;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-        ShadowRay const s = shadow_ray(p_[i], p_error_[i], n_[i], to_[i], to_error_[i], to_n_[i]);
-        rays.o.set(i, s.ray.o);
-        rays.d.set(i, s.ray.d);
-        rays.t_max[i] = s.t_max;
-        lit[i] = static_cast<std::uint32_t>(s.lit) << i;
-    }
-    for (std::size_t i = 0; i < size_; ++i) rays.used |= lit[i];
-    for (std::size_t i = 0; i < size_ && at_infinity_ != 0; ++i)
-        if ((at_infinity_ >> i & 1u) != 0)
-            rays.set(i, {offset_ray_origin(p_[i], p_error_[i], n_[i], to_[i]), to_[i]}, kInfinity);
-    return rays;
 }
 
 }  // namespace nephroid

@@ -7,6 +7,7 @@
 #include "model/light.h"
 #include "scene/scene.h"
 #include "world/hit.h"
+#include "world/light_lanes.h"
 #include "world/ray_packet.h"
 #include "world/shadow.h"
 
@@ -97,8 +98,8 @@ class World {
     /// The share of light that gets from one surface point to the other (or to the light at infinity): 0 where something solid
     /// is between them, less than 1 behind mixes with interfaces. Both ends are moved off their surfaces by their error bounds.
     float transmittance(SurfaceHit const& from, LightSample const& to, RayStats& stats) const;
-    /// Of eight at once: the lanes in whose way there is nothing solid.
-    [[nodiscard]] LaneMask unoccluded(ShadowPacket const& ends, RayStats& stats) const;
+    /// Of eight shadow rays at once: the lanes in whose way there is nothing solid.
+    [[nodiscard]] LaneMask unoccluded(RayPacket const& rays, RayStats& stats) const;
     /// Are there surfaces that let a share of light through? Then transmittance() knows more than unoccluded().
     [[nodiscard]] bool passes_partly() const;
 
@@ -122,6 +123,11 @@ class World {
     /// probability of the choice; for delta lights it is that probability alone. Nothing when the light cannot reach it.
     std::optional<LightSample> sample_light(Receiver const& to, LightSampling how, double u_choose, Vec2 u,
                                             Wavelengths const& lambda) const;
+    /// Whether the world is lit by one flat surface alone, that shines everywhere the same.
+    [[nodiscard]] bool has_lone_flat_light() const;
+    /// The samples of that one for eight receivers; lanes not in `used` mean nothing. The bits of sample_light().
+    void sample_lone_flat_light(ReceiverLanes const& to, LaneMask used, LightSampling how, Vec2Lanes const& u,
+                                LightSampleLanes& sample) const;
     /// The density with which sample_light(to) would have found the emitting point `hit` seen along w.
     float light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling how, Vec3 w) const;
     /// … or the infinite light along w.
