@@ -1,7 +1,8 @@
 // Triangles of a mesh (PBRT 4th ed., 6.5), and the baking of transforms into meshes.
-#include "math/float4.h"
 #include "model/shape.h"
+#include "model/triangle_lanes.h"
 #include "sampling/warp.h"
+#include "triangle_point.h"
 
 namespace nephroid {
 
@@ -22,28 +23,14 @@ struct Corners {
     }
     [[nodiscard]] Float4 edge1() const { return p1 - p0; }
     [[nodiscard]] Float4 edge2() const { return p2 - p0; }
-    /// Along the normal, twice the area long.
-    [[nodiscard]] Float4 area2() const { return cross_accurate(edge1(), edge2()); }
-};
-
-/// Barycentric coordinates.
-struct Shares {
-    float b0, b1, b2;
-
-    explicit Shares(Vec2 b) : b0(1.0f - b.x - b.y), b1(b.x), b2(b.y) {}
-    template <class T>
-    [[nodiscard]] T mean(T const& v0, T const& v1, T const& v2) const {
-        return b0 * v0 + b1 * v1 + b2 * v2;
-    }
+    [[nodiscard]] Float4 area2() const { return double_area(p0, p1, p2); }
 };
 
 /// The point and the bound on its error.
 void place(Corners const& c, Shares const& b, Vec3& p, Vec3& p_error) {
-    Float4 const p0 = b.b0 * c.p0;
-    Float4 const p1 = b.b1 * c.p1;
-    Float4 const p2 = b.b2 * c.p2;
-    p = to_vec3(p0 + p1 + p2);
-    p_error = to_vec3(gamma_bound(7) * (abs(p0) + abs(p1) + abs(p2)));
+    TrianglePoint<Float4> const at(c.p0, c.p1, c.p2, b);
+    p = to_vec3(at.p);
+    p_error = to_vec3(at.p_error);
 }
 /// Of a mesh that has normals; not normalised.
 Float4 interpolated_normal(TriangleMesh const& m, Corners const& c, Shares const& b) {
@@ -84,25 +71,46 @@ void triangle_surface(TriangleMesh const& m, std::uint32_t triangle, Vec2 uv, bo
     Corners const c(m, triangle);
     Shares const b(uv);
     place(c, b, r.p, r.p_error);
-    Float4 const area2 = c.area2();
-    float const inv = 1.0f / length(area2);
-    Float4 ng = area2 * (flip ? -inv : inv);
-    Float4 ns = ng;
-    if (!m.n.empty()) {
-        Float4 const n = interpolated_normal(m, c, b);
-        float const len2 = dot(n, n);
-        if (len2 > 0.0f) {
-            ns = n / std::sqrt(len2);
-            ng = dot(ng, ns) < 0.0f ? -ng : ng;
-        }
-    }
-    r.ng = to_vec3(ng);
-    r.ns = to_vec3(ns);
+    TriangleNormals<Float4> normals(c.area2(), flip);
+    if (!m.n.empty()) normals.shade(interpolated_normal(m, c, b));
+    r.ng = to_vec3(normals.ng);
+    r.ns = to_vec3(normals.ns);
     r.uv = interpolated_uv(m, c, b);
     if (tangents) {
         set_tangents(m, c, r);
     } else {
         r.dpdu = r.dpdv = Vec3{0};
+    }
+}
+
+void TriangleLanes::set(std::size_t lane, TriangleMesh const& m, std::uint32_t triangle, Vec2 uv, bool flip) {
+    Vec3i const& t = m.triangles[triangle];
+    auto const i0 = static_cast<std::uint32_t>(t.x);
+    auto const i1 = static_cast<std::uint32_t>(t.y);
+    auto const i2 = static_cast<std::uint32_t>(t.z);
+    p_[0].set(lane, m.p[i0]), p_[1].set(lane, m.p[i1]), p_[2].set(lane, m.p[i2]);
+    uv_.set(lane, uv);
+    flip_[lane] = flip;
+    if (m.n.empty()) return;
+    n_[0].set(lane, m.n[i0]), n_[1].set(lane, m.n[i1]), n_[2].set(lane, m.n[i2]);
+    shaded_ = true;
+}
+
+void TriangleLanes::surfaces(SurfaceLanes& __restrict s) const {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        TrianglePoint<Vec3> const at(p_[0][i], p_[1][i], p_[2][i], Shares(uv_[i]));
+        TriangleNormals<Vec3> const normals(double_area(p_[0][i], p_[1][i], p_[2][i]), flip_[i] != 0);
+        s.p.set(i, at.p);
+        s.p_error.set(i, at.p_error);
+        s.ng.set(i, normals.ng);
+        s.ns.set(i, normals.ns);
+    }
+    if (!shaded_) return;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        TriangleNormals<Vec3> normals(double_area(p_[0][i], p_[1][i], p_[2][i]), flip_[i] != 0);
+        normals.shade(Shares(uv_[i]).mean(n_[0][i], n_[1][i], n_[2][i]));
+        s.ng.set(i, normals.ng);
+        s.ns.set(i, normals.ns);
     }
 }
 

@@ -33,37 +33,58 @@ struct LeavingLanes {
 }  // namespace
 
 DiffuseLanes::DiffuseLanes(std::span<PathInFlight* const> paths) : paths_(paths) {
+    TriangleLanes triangles;
+    Vec3Lanes d;
     for (std::size_t i = 0; i < paths.size(); ++i) {
+        PathInFlight const& path = *paths[i];
+        d.set(i, path.walk.ray.d);
+        if (path.v.mesh)
+            triangles.set(i, *path.v.mesh->mesh, path.met.primitive, {path.met.u, path.met.v},
+                          path.v.mesh->flip);
+    }
+    triangles.surfaces(s_);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (paths[i]->v.mesh) continue;
         SurfacePoint const& s = paths[i]->v.hit.s;
-        p_.set(i, s.p);
-        p_error_.set(i, s.p_error);
-        ng_.set(i, s.ng);
-        ns_.set(i, s.ns);
-        cos_wo_[i] = dot(-paths[i]->walk.ray.d, s.ns);
+        s_.p.set(i, s.p);
+        s_.p_error.set(i, s.p_error);
+        s_.ng.set(i, s.ng);
+        s_.ns.set(i, s.ns);
+    }
+    for (std::size_t i = 0; i < kLanes; ++i) cos_wo_[i] = dot(-d[i], s_.ns[i]);
+}
+
+void DiffuseLanes::complete_hits() const {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        SurfacePoint& s = paths_[i]->v.hit.s;
+        s.p = s_.p[i];
+        s.p_error = s_.p_error[i];
+        s.ng = s_.ng[i];
+        s.ns = s_.ns[i];
     }
 }
 
-void DiffuseLanes::add_direct(bool mis) {
+void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
     PathContext const& any = paths_[0]->c;
     ReceiverLanes to;
     Vec2Lanes u;
     for (std::size_t i = 0; i < kLanes; ++i) {
-        to.p.set(i, p_[i]);
+        to.p.set(i, s_.p[i]);
         to.n.set(i, facing(i));
     }
-    for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, paths_[i]->v.drawn.light);
+    for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, u_light[i]);
     LightSampleLanes light;
     any.world.sample_lone_flat_light(to, used(), any.lights, u, light);
 
     ArrivingLanes arriving;
     for (std::size_t i = 0; i < kLanes; ++i) {
-        float const cos_wi = dot(light.wi[i], ns_[i]);
+        float const cos_wi = dot(light.wi[i], s_.ns[i]);
         float const pdf = density(cos_wo_[i], cos_wi);
         float const weight = mis ? power_heuristic(light.pdf[i], pdf) : 1.0f;
         arriving.factor[i] = std::abs(cos_wi) * weight / light.pdf[i];
         arriving.arrives[i] = (light.pdf[i] > 0.0f) & (cos_wo_[i] * cos_wi > 0.0f);
         ShadowRay const s =
-            shadow_ray(p_[i], p_error_[i], ng_[i], light.p[i], light.p_error, light.n);
+            shadow_ray(s_.p[i], s_.p_error[i], s_.ng[i], light.p[i], light.p_error, light.n);
         arriving.rays.o.set(i, s.ray.o);
         arriving.rays.d.set(i, s.ray.d);
         arriving.rays.t_max[i] = s.t_max;
@@ -82,18 +103,18 @@ void DiffuseLanes::add_direct(bool mis) {
     }
 }
 
-LaneMask DiffuseLanes::scatter() {
+LaneMask DiffuseLanes::scatter(Vec2 const* u_direction) const {
     Vec2Lanes u;
-    for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, paths_[i]->v.drawn.direction);
+    for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, u_direction[i]);
     LeavingLanes leaving;
     for (std::size_t i = 0; i < kLanes; ++i) {
         Vec3 local = square_to_cosine_hemisphere(u[i]);
         local.z = cos_wo_[i] < 0.0f ? -local.z : local.z;
         leaving.pdf[i] = density(cos_wo_[i], local.z);
         leaving.factor[i] = std::abs(local.z) / leaving.pdf[i];
-        Vec3 const wi = normalize(frame_from_z(ns_[i]).from_local(local));
+        Vec3 const wi = normalize(frame_from_z(s_.ns[i]).from_local(local));
         leaving.d.set(i, wi);
-        leaving.o.set(i, offset_of_lane(p_[i], p_error_[i], ng_[i], wi));
+        leaving.o.set(i, offset_of_lane(s_.p[i], s_.p_error[i], s_.ng[i], wi));
     }
     LaneMask going = 0;
     for (std::size_t i = 0; i < paths_.size(); ++i) {
@@ -104,7 +125,7 @@ LaneMask DiffuseLanes::scatter() {
         if (!weigh(path.c, walk, reflectance(path) * kInvPi * leaving.factor[i])) continue;
         walk.specular = false;
         walk.pdf = leaving.pdf[i];
-        walk.from = {p_[i], facing(i), false};
+        walk.from = {s_.p[i], facing(i), false};
         walk.cone += path.v.hit.t;
         walk.path_class.scatter(false);
         walk.ray = {leaving.o[i], leaving.d[i]};

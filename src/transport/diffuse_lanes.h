@@ -2,6 +2,7 @@
 // paths meet. What is done is what walk.cpp does to one path, to the same bits: loops over lanes call the functions that one path uses.
 #pragma once
 
+#include "model/triangle_lanes.h"
 #include "path_in_flight.h"
 #include "world/ray_packet.h"
 
@@ -14,18 +15,20 @@ class DiffuseLanes {
     /// Of up to kLanes paths, whose vertices are `in_lanes`, in a world that encloses nothing.
     explicit DiffuseLanes(std::span<PathInFlight* const> paths);
 
-    /// add_direct() of each, by the one light of the world, which is flat (World::has_lone_flat_light). Its numbers have been drawn.
-    void add_direct(bool mis);
-    /// scatter() of each; the lanes of those that go on.
-    LaneMask scatter();
+    /// Fills what was left out of the vertices' hits.
+    void complete_hits() const;
+    /// add_direct() of each, by the one light of the world, which is flat (World::has_lone_flat_light). `u`: its numbers.
+    void add_direct(Vec2 const* u, bool mis) const;
+    /// scatter() of each by the numbers `u`; the lanes of those that go on.
+    [[nodiscard]] LaneMask scatter(Vec2 const* u) const;
 
   private:
     /// The shading normal on the side of the eye.
-    [[nodiscard]] Vec3 facing(std::size_t i) const { return ns_[i] * (cos_wo_[i] < 0.0f ? -1.0f : 1.0f); }
+    [[nodiscard]] Vec3 facing(std::size_t i) const { return s_.ns[i] * (cos_wo_[i] < 0.0f ? -1.0f : 1.0f); }
     [[nodiscard]] LaneMask used() const { return (1u << paths_.size()) - 1u; }
 
     std::span<PathInFlight* const> paths_;
-    Vec3Lanes p_, p_error_, ng_, ns_;
+    SurfaceLanes s_;
     FloatLanes cos_wo_{};
 };
 

@@ -122,7 +122,9 @@ struct Vertex {
     BsdfTraits is;  // of bsdf
     bool drawn_ahead = false;
     Drawn drawn;  // if so
-    bool in_lanes = false;  // scatters together with others (diffuse_lanes.h): neither frame nor wo_local is filled
+    // Where it scatters together with others (diffuse_lanes.h): neither frame nor wo_local is filled, …
+    bool in_lanes = false;
+    PlainMesh const* mesh = nullptr;  // … and on this, of hit only t
 };
 
 /// What a vertex is to light. Made where it is needed: a copy of what has just been stored waits for the store.
@@ -161,7 +163,7 @@ inline bool prepare_in_lanes(PathContext const& c, Vertex& v) {
     if (!v.material.valid()) return false;
     MaterialData const& data = c.world.assets().data(v.material);
     if (!data.plain) return false;
-    make_plain_bsdf(data, c.lambda, v.bsdf);
+    make_plain_bsdf(data.reflectance, c.lambda, v.bsdf);
     v.is = {};
     return true;
 }

@@ -167,6 +167,18 @@ struct Builder {
         }
     }
 
+    [[nodiscard]] std::vector<PlainMesh> plain_meshes() const {
+        std::vector<PlainMesh> plain(record_count[0]);
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            ObjectRecord const& r = parts.records[i];
+            if (r.emits() || r.passage != Passage::Solid || !r.material.valid()) continue;
+            MaterialData const& data = assets.data(r.material);
+            if (data.plain)
+                plain[i] = {std::get_if<TriangleMesh>(&r.object->shape), r.flip, data.reflectance};
+        }
+        return plain;
+    }
+
     /// The box of a surface in the world.
     static Bounds3 box_of(ObjectRecord const& r, InstanceRecord const* instance) {
         Bounds3 const box = match(
@@ -261,6 +273,7 @@ World compile(Scene scene_in) {
     w.bounds_ = w.caster_->bounds();
     w.parts_->first_record = b.first_record;
     w.parts_->record_count = b.record_count;
+    w.plain_meshes_ = b.plain_meshes();
     if (w.encloses_) w.bodies_ = b.bodies();
     gather_lights(scene, *w.assets_, *w.parts_, *w.lights_, bounding_sphere(w.bounds_));
     Vec3 const all(kInfinity);

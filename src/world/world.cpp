@@ -40,18 +40,20 @@ WorldMemory World::memory() const {
     return m;
 }
 
-bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const {
+bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, RawHit& hit) const {
+    hit.found = false;
     ++stats.rays[static_cast<std::size_t>(kind)];
     if (!RayCaster::acceptable(ray, t_max)) {
         ++stats.rejected;
         return false;
     }
     if (stats.recorder) stats.recorder->push_back({ray, t_max, kind});
+    if (caster_->nearest(ray, t_max, hit)) ++stats.hits;
+    return hit.found;
+}
+bool World::intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const {
     RawHit raw;
-    if (!caster_->nearest(ray, t_max, raw)) return false;
-    ++stats.hits;
-    complete(raw, hit);
-    return true;
+    return intersect(ray, t_max, kind, stats, raw) && surface(raw, hit);
 }
 
 namespace {

@@ -28,6 +28,7 @@ inline float dot(Float4 a, Float4 b) {
     Float4 const products = a * b;
     return products[0] + products[1] + products[2];
 }
+inline Float4 choose(bool first, Float4 a, Float4 b) { return first ? a : b; }
 inline float length(Float4 v) { return std::sqrt(dot(v, v)); }
 
 /// a*b - c*d without cancellation, lane by lane.

@@ -18,9 +18,9 @@ float spreading_share(Assets const& assets, MaterialId id, TexturePoint const& a
 bool make_bsdf(Assets const& assets, MaterialId id, TexturePoint const& at, Wavelengths const& lambda,
                Bsdf& bsdf);
 
-/// The same for a material that is plain (MaterialData).
-inline void make_plain_bsdf(MaterialData const& data, Wavelengths const& lambda, Bsdf& bsdf) {
-    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{clamp(data.reflectance.sample(lambda), 0.0f, 1.0f)});
+/// The same for a material that is plain (MaterialData), by its reflectance.
+inline void make_plain_bsdf(RuntimeSpectrum const& reflectance, Wavelengths const& lambda, Bsdf& bsdf) {
+    bsdf.emplace<DiffuseBsdf>(DiffuseBsdf{clamp(reflectance.sample(lambda), 0.0f, 1.0f)});
 }
 
 /// Indices of refraction by lane. In rgb mode one index serves all lanes, the middle one: a glass has no colour of its own.

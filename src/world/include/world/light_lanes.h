@@ -1,17 +1,10 @@
 // A light as eight receivers see it at once.
 #pragma once
 
+#include "math/lanes.h"
 #include "spectrum/runtime.h"
-#include "world/ray_packet.h"
 
 namespace nephroid {
-
-struct Vec2Lanes {
-    FloatLanes x{}, y{};
-
-    [[nodiscard]] Vec2 operator[](std::size_t lane) const { return {x[lane], y[lane]}; }
-    void set(std::size_t lane, Vec2 v) { x[lane] = v.x, y[lane] = v.y; }
-};
 
 /// Surfaces that want light from one side: the normals' (Receiver).
 struct ReceiverLanes {

@@ -1,28 +1,12 @@
-// Rays side by side, as the intersector wants them, and the arithmetic of their ends. Loops over lanes call the very functions that
-// single rays use: without branches, the compiler makes one instruction of eight, and the bits are the same.
+// Rays side by side, as the intersector wants them.
 #pragma once
 
 #include "math/lanes.h"
 #include "math/ray.h"
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace nephroid {
-
-/// One bit a lane.
-using LaneMask = std::uint32_t;
-
-using FloatLanes = std::array<float, kLanes>;
-
-/// Eight vectors, by coordinates.
-struct alignas(32) Vec3Lanes {
-    FloatLanes x{}, y{}, z{};
-
-    [[nodiscard]] Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
-    void set(std::size_t lane, Vec3 v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
-};
 
 /// Up to eight rays; the lanes of `used` are in use, and what the others hold has no meaning.
 struct RayPacket {

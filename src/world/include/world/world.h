@@ -70,6 +70,13 @@ struct CasterPiece {
     float reach = 0;
 };
 
+/// Triangles that neither shine nor let anything pass, of a diffuse material of one colour (MaterialData::plain).
+struct PlainMesh {
+    TriangleMesh const* mesh = nullptr;
+    bool flip = false;
+    RuntimeSpectrum reflectance;
+};
+
 class World {
   public:
     World(World&&) noexcept;
@@ -87,10 +94,18 @@ class World {
     // --- rays -----------------------------------------------------------------------------------------------------------
     /// Nearest hit with 0 < t <= t_max. The direction need not be a unit vector.
     bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, SurfaceHit& hit) const;
-    /// The same of camera rays side by side, to be completed by surface(). What a ray meets does not depend on those beside it.
+    /// The same, to be completed by surface().
+    bool intersect(Ray const& ray, float t_max, RayKind kind, RayStats& stats, RawHit& hit) const;
+    /// … of camera rays side by side. What a ray meets does not depend on those beside it.
     void intersect(RayPacket const& rays, RayStats& stats, std::array<RawHit, kLanes>& hits) const;
     /// The surface that was hit; false where there was none.
     bool surface(RawHit const& found, SurfaceHit& hit) const;
+    /// What a hit is on where nothing has to be asked but where it is and what colour it has; null elsewhere. Then surface() may be left out.
+    [[nodiscard]] PlainMesh const* plain_mesh(RawHit const& found) const {
+        if (!found.found || found.instance != kNoInstance) return nullptr;
+        PlainMesh const& plain = plain_meshes_[found.geometry];
+        return plain.mesh ? &plain : nullptr;
+    }
     /// How much of the surface is there at a hit, by its alpha: the probability with which a ray that comes by meets it, above 0.
     [[nodiscard]] float presence(SurfaceHit const& hit) const;
     /// The scene's object that was hit: one of its groups', whichever its appearance.
@@ -190,6 +205,7 @@ class World {
     std::unique_ptr<RayCaster> caster_;
     std::unique_ptr<LightTable> lights_;
     std::unique_ptr<WorldParts> parts_;
+    std::vector<PlainMesh> plain_meshes_;  // by the records of the world's own objects; without a mesh: it is not plain
     Bounds3 bounds_;
     Bounds3
         emitting_;  // everything that emits, with room for rounding; all of space where something at infinity does
