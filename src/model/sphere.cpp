@@ -5,13 +5,23 @@
 namespace nephroid {
 
 namespace {
+/// Where it is cut; beyond its poles where it is not.
+float lowest(Sphere const& s) {
+    float const z = std::fmin(s.z_min, s.z_max);
+    return z > -s.radius ? min(z, s.radius) : -kInfinity;
+}
+float highest(Sphere const& s) {
+    float const z = std::fmax(s.z_min, s.z_max);
+    return z < s.radius ? max(z, -s.radius) : kInfinity;
+}
+
 struct Cut {
     float z_lo, z_hi, theta_lo, theta_hi;  // theta of z_lo (larger) and of z_hi
     bool full_z;
 };
 Cut cut_of(Sphere const& s) {
-    float const lo = clamp(std::fmin(s.z_min, s.z_max), -s.radius, s.radius);
-    float const hi = clamp(std::fmax(s.z_min, s.z_max), -s.radius, s.radius);
+    float const lo = max(lowest(s), -s.radius);
+    float const hi = min(highest(s), s.radius);
     return {lo, hi, std::acos(clamp(lo / s.radius, -1.0f, 1.0f)),
             std::acos(clamp(hi / s.radius, -1.0f, 1.0f)), lo <= -s.radius && hi >= s.radius};
 }
@@ -27,30 +37,34 @@ Bounds3 bounds(Sphere const& s) {
 
 std::optional<ShapeHit> intersect(Sphere const& s, std::uint32_t, Ray3d const& ray, double t_min,
                                   double t_max) {
-    // |o + t d|^2 = r^2. The discriminant by the vector from the centre to the ray's closest point, which does not cancel
-    // for far spheres (PBRT 4th ed., 6.8.3); the sign of c tells on which side of the sphere the origin is.
+    // |o + t d|^2 = r^2, that is a t^2 + 2 h t + c = 0. The discriminant by the distance of the line from the centre, |o x d| / |d|, which
+    // does not cancel for far spheres (as PBRT 4th ed., 6.8.3); the sign of c tells on which side of the sphere the origin is.
     double const r = s.radius;
     double const a = detail::dot3(ray.d, ray.d);
     double const h = detail::dot3(ray.d, ray.o);
-    double const len_o = std::sqrt(detail::dot3(ray.o, ray.o));
-    double const c = (len_o - r) * (len_o + r);
-    auto const v = detail::at(ray, -h / a);
-    double const len_v = std::sqrt(detail::dot3(v, v));
-    double t[2];
-    if (!detail::solve_quadratic(a, h, c, a * (r - len_v) * (r + len_v), t[0], t[1])) return std::nullopt;
-    Cut const cut = cut_of(s);
-    for (double const ti : t) {
-        if (!(ti > t_min && ti < t_max)) continue;
-        auto const p = detail::at(ray, ti);
-        if (!cut.full_z && (p[2] < cut.z_lo || p[2] > cut.z_hi)) continue;
+    double const c = detail::dot3(ray.o, ray.o) - r * r;
+    auto const moment = detail::cross3(ray.o, ray.d);
+    double const discriminant = a * r * r - detail::dot3(moment, moment);
+    bool const behind = c > 0 && h > 0;
+    if (behind || !(discriminant >= 0) || a == 0) return std::nullopt;
+    double const root = std::sqrt(discriminant);
+    double const q = h < 0 ? -h + root : -h - root;
+    double const z_lo = lowest(s);
+    double const z_hi = highest(s);
+    // From inside there is only the far one. Without cancellation one is q / a, the other c / q.
+    for (bool far : {false, true}) {
+        if (!far && c < 0) continue;
+        double const t = far == (h < 0) ? q / a : c / q;
+        if (!(t > t_min && t < t_max)) continue;
+        auto const p = detail::at(ray, t);
+        if (p[2] < z_lo || p[2] > z_hi) continue;
         if (s.phi_max < kTwoPi && detail::azimuth(p[0], p[1]) > s.phi_max) continue;
-        return ShapeHit{ti, 0, 0, 0};
+        return ShapeHit{t, 0, 0, 0};
     }
     return std::nullopt;
 }
 
-SurfacePoint surface(Sphere const& s, ShapeHit const&, Vec3 p) {
-    Cut const cut = cut_of(s);
+SurfacePoint bare_surface(Sphere const& s, Vec3 p) {
     p *= s.radius / length(p);
     if (p.x == 0.0f && p.y == 0.0f) p.x = 1e-5f * s.radius;  // the pole has no azimuth: pick one
     SurfacePoint r;
@@ -58,6 +72,12 @@ SurfacePoint surface(Sphere const& s, ShapeHit const&, Vec3 p) {
     r.p_error = gamma_bound(5) * abs(p);
     r.ng = normalize(p);
     r.ns = r.ng;
+    return r;
+}
+SurfacePoint surface(Sphere const& s, ShapeHit const&, Vec3 local) {
+    Cut const cut = cut_of(s);
+    SurfacePoint r = bare_surface(s, local);
+    Vec3 const p = r.p;
     float const phi = detail::azimuth(p.x, p.y);
     float const theta = std::acos(clamp(p.z / s.radius, -1.0f, 1.0f));
     float const span = cut.theta_hi - cut.theta_lo;

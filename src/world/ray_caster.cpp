@@ -65,46 +65,59 @@ bool covers(UserGeometry const& g, std::uint32_t geometry, std::uint32_t instanc
     return to_unit_double(key) < static_cast<double>(opacity);
 }
 
-Ray3d to_shape_space(UserGeometry const& g, RTCRay const& ray) {
-    Ray3d r{{ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}};
-    if (!g.record->place) return r;
-    auto const& m = g.record->place->group_to_shape;
-    Ray3d out{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        out.o[i] = m[i][0] * r.o[0] + m[i][1] * r.o[1] + m[i][2] * r.o[2] + m[i][3];
-        out.d[i] = m[i][0] * r.d[0] + m[i][1] * r.d[1] + m[i][2] * r.d[2];
+/// A ray of a callback's n, in the space of the shape's group and in the shape's own.
+struct UserRay {
+    Ray3d local;
+    double t_min, t_max;
+    Vec3 direction;
+
+    UserRay(UserGeometry const& g, RTCRayN* rays, unsigned n, unsigned i)
+        : t_min(static_cast<double>(RTCRayN_tnear(rays, n, i))),
+          t_max(static_cast<double>(RTCRayN_tfar(rays, n, i))),
+          direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)} {
+        Ray3d const r{{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+                      {direction.x, direction.y, direction.z}};
+        if (!g.record->place) {
+            local = r;
+            return;
+        }
+        auto const& m = g.record->place->group_to_shape;
+        for (std::size_t k = 0; k < 3; ++k) {
+            local.o[k] = m[k][0] * r.o[0] + m[k][1] * r.o[1] + m[k][2] * r.o[2] + m[k][3];
+            local.d[k] = m[k][0] * r.d[0] + m[k][1] * r.d[1] + m[k][2] * r.d[2];
+        }
     }
-    return out;
-}
+};
 
 /// A hit and its point in the shape's own space.
 struct LocalHit : ShapeHit {
     Vec3 p;
 };
 
-std::optional<LocalHit> intersect_user(UserGeometry const& g, std::uint32_t prim, std::uint32_t geometry,
-                                       std::uint32_t instance, RTCRay const& ray) {
-    Ray3d const local = to_shape_space(g, ray);
-    double t_min = static_cast<double>(ray.tnear);
-    double const t_max = static_cast<double>(ray.tfar);
+/// False where the ray misses.
+bool intersect_user(UserGeometry const& g, std::uint32_t prim, std::uint32_t geometry, std::uint32_t instance,
+                    UserRay const& ray, LocalHit& found) {
+    double t_min = ray.t_min;
     return match(
-        g.record->object->shape, [](TriangleMesh const&) -> std::optional<LocalHit> { return std::nullopt; },
-        [](LoopSubdivision const&) -> std::optional<LocalHit> { return std::nullopt; },
-        [&](auto const& shape) -> std::optional<LocalHit> {
+        g.record->object->shape, [](TriangleMesh const&) { return false; },
+        [](LoopSubdivision const&) { return false; },
+        [&](auto const& shape) {
             // Where alpha lets the ray through, the shape may be met once more.
             constexpr int kMostHits = 8;
             for (int i = 0; i < kMostHits; ++i) {
-                auto const hit = intersect(shape, prim, local, t_min, t_max);
-                if (!hit) return std::nullopt;
-                Vec3 const p{static_cast<float>(local.o[0] + hit->t * local.d[0]),
-                             static_cast<float>(local.o[1] + hit->t * local.d[1]),
-                             static_cast<float>(local.o[2] + hit->t * local.d[2])};
+                auto const hit = intersect(shape, prim, ray.local, t_min, ray.t_max);
+                if (!hit) return false;
+                static_cast<ShapeHit&>(found) = *hit;
+                for (int k = 0; k < 3; ++k) {
+                    auto const axis = static_cast<std::size_t>(k);
+                    found.p[k] = static_cast<float>(ray.local.o[axis] + hit->t * ray.local.d[axis]);
+                }
                 if (!g.record->object->alpha.valid() ||
-                    covers(g, geometry, instance, *hit, p, {ray.dir_x, ray.dir_y, ray.dir_z}))
-                    return LocalHit{*hit, p};
+                    covers(g, geometry, instance, *hit, found.p, ray.direction))
+                    return true;
                 t_min = hit->t;
             }
-            return std::nullopt;
+            return false;
         });
 }
 
@@ -178,21 +191,20 @@ void intersect_callback(RTCIntersectFunctionNArguments const* args) {
     std::uint32_t const instance = args->context->instID[0];
     for (unsigned i = 0; i < n; ++i) {
         if (args->valid[i] == 0) continue;
-        RTCRay const ray = rtcGetRayFromRayN(rays, n, i);
-        auto const hit = intersect_user(g, args->primID, args->geomID, instance, ray);
-        if (!hit) continue;
-        float const t = static_cast<float>(hit->t);
+        LocalHit hit;
+        if (!intersect_user(g, args->primID, args->geomID, instance, UserRay(g, rays, n, i), hit)) continue;
+        float const t = static_cast<float>(hit.t);
         if (in_packet &&
-            !static_cast<PacketContext*>(args->context)->takes(i, {t, instance, args->geomID, hit->part}))
+            !static_cast<PacketContext*>(args->context)->takes(i, {t, instance, args->geomID, hit.part}))
             continue;
         RTCRayN_tfar(rays, n, i) = in_packet ? PacketContext::told(t) : t;
-        RTCHitN_u(hits, n, i) = hit->u;
-        RTCHitN_v(hits, n, i) = hit->v;
+        RTCHitN_u(hits, n, i) = hit.u;
+        RTCHitN_v(hits, n, i) = hit.v;
         // Embree hands the normal on as it is: it carries the point in the shape's own space, which was found in double.
-        RTCHitN_Ng_x(hits, n, i) = hit->p.x;
-        RTCHitN_Ng_y(hits, n, i) = hit->p.y;
-        RTCHitN_Ng_z(hits, n, i) = hit->p.z;
-        RTCHitN_primID(hits, n, i) = hit->part;
+        RTCHitN_Ng_x(hits, n, i) = hit.p.x;
+        RTCHitN_Ng_y(hits, n, i) = hit.p.y;
+        RTCHitN_Ng_z(hits, n, i) = hit.p.z;
+        RTCHitN_primID(hits, n, i) = hit.part;
         RTCHitN_geomID(hits, n, i) = args->geomID;
         RTCHitN_instID(hits, n, i, 0) = instance;
     }
@@ -202,8 +214,9 @@ void occluded_callback(RTCOccludedFunctionNArguments const* args) {
     unsigned const n = args->N;
     for (unsigned i = 0; i < n; ++i) {
         if (args->valid[i] == 0) continue;
-        RTCRay const ray = rtcGetRayFromRayN(args->ray, n, i);
-        if (intersect_user(g, args->primID, args->geomID, args->context->instID[0], ray))
+        LocalHit hit;
+        if (intersect_user(g, args->primID, args->geomID, args->context->instID[0],
+                           UserRay(g, args->ray, n, i), hit))
             RTCRayN_tfar(args->ray, n, i) = -kInfinity;
     }
 }

@@ -29,11 +29,15 @@ bool flips(ObjectRecord const& r) {
 
 }  // namespace
 
-void analytic_surface(ObjectRecord const& r, ShapeHit const& hit, Vec3 local, SurfacePoint& s) {
+void analytic_surface(ObjectRecord const& r, ShapeHit const& hit, Vec3 local, bool coordinates,
+                      SurfacePoint& s) {
     match(
         r.object->shape, [](TriangleMesh const&) {}, [](LoopSubdivision const&) {},
         [&](auto const& shape) {
-            s = surface(shape, hit, local);
+            if constexpr (requires { bare_surface(shape, local); })
+                s = coordinates ? surface(shape, hit, local) : bare_surface(shape, local);
+            else
+                s = surface(shape, hit, local);
             turn(s, flips(r));
             if (r.place) s = transformed(r.place->shape_to_group, s);
         });

@@ -40,8 +40,9 @@ struct InstanceRecord {
     std::uint32_t first_light = 0;   // of the appearance's emitters
 };
 
-/// Geometry of a hit on anything but triangles, in the group's space.
-void analytic_surface(ObjectRecord const& record, ShapeHit const& hit, Vec3 local, SurfacePoint& s);
+/// Geometry of a hit on anything but triangles, in the group's space; `coordinates`: uv and tangents are wanted.
+void analytic_surface(ObjectRecord const& record, ShapeHit const& hit, Vec3 local, bool coordinates,
+                      SurfacePoint& s);
 
 /// Geometry of a hit, in world space. `local` is the point in the space of an analytic shape, off by rounding.
 /// Fills `s` in place.
@@ -50,7 +51,8 @@ inline void surface_at(ObjectRecord const& record, InstanceRecord const* instanc
     if (auto const* mesh = std::get_if<TriangleMesh>(&record.object->shape)) {
         triangle_surface(*mesh, hit.part, {hit.u, hit.v}, record.flip, tangents, s);
     } else {
-        analytic_surface(record, hit, local, s);
+        // What shines may have a picture.
+        analytic_surface(record, hit, local, tangents || record.emits(), s);
     }
     if (instance) s = transformed(instance->to_world, s);
 }

@@ -49,6 +49,8 @@ NEPHROID_ANALYTIC_SHAPE(Box)
 NEPHROID_ANALYTIC_SHAPE(Quad)
 NEPHROID_ANALYTIC_SHAPE(BilinearMesh)
 #undef NEPHROID_ANALYTIC_SHAPE
+/// surface() without its coordinates and tangents, for those who do not ask for them: they are its angles.
+SurfacePoint bare_surface(Sphere const& shape, Vec3 p);
 
 /// Primitives that the intersector sees: the patches of a bilinear mesh, else 1.
 template <class S>
