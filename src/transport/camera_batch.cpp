@@ -47,7 +47,8 @@ CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film,
       paths_{PathInFlight{{job, job.world(), {}, samples_[I].sampler, stats}, {}, {}, {}, {}}...},
       shadows_(job.world(), stats) {
     Integrator const& integrator = job.settings().integrator;
-    bool const in_step = std::holds_alternative<PathIntegrator>(integrator);
+    bool const in_step =
+        match(integrator, []<class Kind>(Kind const&) { return GoesInStep<Kind>; });
     for (std::size_t i = 0; i < kMostInStep; ++i) {
         PathInFlight& path = paths_[i];
         path.c.hemisphere = hemisphere_of(integrator);
@@ -109,14 +110,14 @@ void CameraBatch::run(PathTrace* trace) {
     }
     trace_camera_rays();
     match(
-        job_.settings().integrator,
-        [&](PathIntegrator const& path) {
-            follow_paths(path, {going.data(), size_});
-        },
-        [](LightPathIntegrator const&) {},  // draws its picture elsewhere
-        [&](auto const& integrator) {
-            for (std::size_t i = 0; i < size_; ++i)
-                paths_[i].seen = radiance(integrator, paths_[i].c, samples_[i].camera.ray, paths_[i].aov);
+        job_.settings().integrator, [](LightPathIntegrator const&) {},  // draws its picture elsewhere
+        [&]<class Kind>(Kind const& integrator) {
+            if constexpr (GoesInStep<Kind>)
+                follow_paths(integrator, {going.data(), size_});
+            else
+                for (std::size_t i = 0; i < size_; ++i)
+                    paths_[i].seen =
+                        radiance(integrator, paths_[i].c, samples_[i].camera.ray, paths_[i].aov);
         });
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);

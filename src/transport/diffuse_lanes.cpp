@@ -54,13 +54,15 @@ DiffuseLanes::DiffuseLanes(std::span<PathInFlight* const> paths) : paths_(paths)
     for (std::size_t i = 0; i < kLanes; ++i) cos_wo_[i] = dot(-d[i], s_.ns[i]);
 }
 
-void DiffuseLanes::complete_hits() const {
+void DiffuseLanes::complete() const {
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-        SurfacePoint& s = paths_[i]->v.hit.s;
+        PathInFlight& path = *paths_[i];
+        SurfacePoint& s = path.v.hit.s;
         s.p = s_.p[i];
         s.p_error = s_.p_error[i];
         s.ng = s_.ng[i];
         s.ns = s_.ns[i];
+        orient(path.walk, path.v);
     }
 }
 

@@ -17,7 +17,7 @@ struct PathInFlight {
     AovSample* aov = nullptr;  // of the first hit, where somebody asks
 };
 
-/// Draws the two numbers of one dimension for every path, into to(path).
+/// Draws the two numbers of one dimension for every path, into to(path), which is called in their order.
 template <class To>
 void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To to) {
     std::array<PathSampler*, kMostInStep> samplers;
@@ -30,5 +30,8 @@ void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To t
 /// Radiance along the camera rays of `paths`, which is in their `seen` (and c.shadows) in the end. All are at their first ray, whose hit is
 /// in `met`. The list is used up.
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths);
+void follow_paths(SppmIntegrator const& p, std::span<PathInFlight*> paths);
+template <class Integrator>
+concept GoesInStep = requires(Integrator const& p, std::span<PathInFlight*> paths) { follow_paths(p, paths); };
 
 }  // namespace nephroid

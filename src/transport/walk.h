@@ -219,6 +219,5 @@ void record_first_hit(PathContext& c, Walk const& walk, bool scatters, Vertex co
 SeenLight radiance(WhittedIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 SeenLight radiance(DirectIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 SeenLight radiance(PhotonMapIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
-SeenLight radiance(SppmIntegrator const& p, PathContext& c, Ray const& ray, AovSample* aov);
 
 }  // namespace nephroid

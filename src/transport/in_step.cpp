@@ -1,0 +1,46 @@
+#include "in_step.h"
+
+namespace nephroid {
+
+void trace_rays(Paths paths) {
+    for (PathInFlight* path : paths) {
+        Walk& walk = path->walk;
+        bool const of_camera = walk.vertex == 0 && walk.mode == Mode::Radiance;
+        if (!of_camera)
+            path->c.world.intersect(walk.ray, kInfinity, RayKind::Bounce, path->c.stats, path->met);
+        walk.met = &path->met;
+    }
+}
+
+bool arrive(PathInFlight& path, EmissionWeight weight, bool in_lanes) {
+    auto& [c, walk, met, v, seen, aov] = path;
+    bool const records = aov && walk.vertex == 0;
+    v.mesh = in_lanes && !records ? c.world.plain_mesh(met) : nullptr;
+    v.in_lanes = v.mesh != nullptr;
+    if (v.mesh) {
+        // Most of what paths meet: no more is asked of the surface by itself.
+        walk.met = nullptr;
+        v.hit.t = met.t;
+        make_plain_bsdf(v.mesh->reflectance, c.lambda, v.bsdf);
+        v.is = {};
+        return true;
+    }
+    if (!advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()])) return false;
+    v.in_lanes = in_lanes && prepare_in_lanes(c, v);
+    bool const scatters = v.in_lanes || prepare(c, walk, v);
+    if (records) record_first_hit(c, walk, scatters, v, aov);
+    return scatters;
+}
+
+Split split(Paths paths) {
+    auto const singly = std::partition(paths.begin(), paths.end(),
+                                       [](PathInFlight const* path) { return path->v.in_lanes; });
+    return {{paths.begin(), singly}, {singly, paths.end()}};
+}
+
+Paths joined(Split const& split) {
+    auto const end = std::copy(split.singly.begin(), split.singly.end(), split.together.end());
+    return {split.together.begin(), end};
+}
+
+}  // namespace nephroid
