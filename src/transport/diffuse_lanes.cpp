@@ -34,10 +34,9 @@ struct LeavingLanes {
 
 DiffuseLanes::DiffuseLanes(std::span<PathInFlight* const> paths) : paths_(paths) {
     TriangleLanes triangles;
-    Vec3Lanes d;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         PathInFlight const& path = *paths[i];
-        d.set(i, path.walk.ray.d);
+        d_.set(i, path.walk.ray.d);
         if (path.v.mesh)
             triangles.set(i, *path.v.mesh->mesh, path.met.primitive, {path.met.u, path.met.v},
                           path.v.mesh->flip);
@@ -51,18 +50,16 @@ DiffuseLanes::DiffuseLanes(std::span<PathInFlight* const> paths) : paths_(paths)
         s_.ng.set(i, s.ng);
         s_.ns.set(i, s.ns);
     }
-    for (std::size_t i = 0; i < kLanes; ++i) cos_wo_[i] = dot(-d[i], s_.ns[i]);
+    for (std::size_t i = 0; i < kLanes; ++i) cos_wo_[i] = dot(-d_[i], s_.ns[i]);
 }
 
-void DiffuseLanes::complete() const {
+void DiffuseLanes::complete_hits() const {
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-        PathInFlight& path = *paths_[i];
-        SurfacePoint& s = path.v.hit.s;
+        SurfacePoint& s = paths_[i]->v.hit.s;
         s.p = s_.p[i];
         s.p_error = s_.p_error[i];
         s.ng = s_.ng[i];
         s.ns = s_.ns[i];
-        orient(path.walk, path.v);
     }
 }
 
@@ -108,13 +105,15 @@ void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
 LaneMask DiffuseLanes::scatter(Vec2 const* u_direction) const {
     Vec2Lanes u;
     for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, u_direction[i]);
+    Mode const mode = paths_[0]->walk.mode;
     LeavingLanes leaving;
     for (std::size_t i = 0; i < kLanes; ++i) {
         Vec3 local = square_to_cosine_hemisphere(u[i]);
         local.z = cos_wo_[i] < 0.0f ? -local.z : local.z;
         leaving.pdf[i] = density(cos_wo_[i], local.z);
-        leaving.factor[i] = std::abs(local.z) / leaving.pdf[i];
         Vec3 const wi = normalize(frame_from_z(s_.ns[i]).from_local(local));
+        leaving.factor[i] = std::abs(local.z) / leaving.pdf[i] *
+                            shading_normal_scale(mode, -d_[i], wi, s_.ns[i], s_.ng[i]);
         leaving.d.set(i, wi);
         leaving.o.set(i, offset_of_lane(s_.p[i], s_.p_error[i], s_.ng[i], wi));
     }

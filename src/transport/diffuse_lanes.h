@@ -15,8 +15,8 @@ class DiffuseLanes {
     /// Of up to kLanes paths, whose vertices are `in_lanes`, in a world that encloses nothing.
     explicit DiffuseLanes(std::span<PathInFlight* const> paths);
 
-    /// Fills what was left out of the vertices, for functions that take one.
-    void complete() const;
+    /// Fills what was left out of the vertices' hits.
+    void complete_hits() const;
     /// add_direct() of each, by the one light of the world, which is flat (World::has_lone_flat_light). `u`: its numbers.
     void add_direct(Vec2 const* u, bool mis) const;
     /// scatter() of each by the numbers `u`; the lanes of those that go on.
@@ -29,6 +29,7 @@ class DiffuseLanes {
 
     std::span<PathInFlight* const> paths_;
     SurfaceLanes s_;
+    Vec3Lanes d_;  // of the rays that came
     FloatLanes cos_wo_{};
 };
 

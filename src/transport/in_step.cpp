@@ -12,23 +12,28 @@ void trace_rays(Paths paths) {
     }
 }
 
-bool arrive(PathInFlight& path, EmissionWeight weight, bool in_lanes) {
+bool reach(PathInFlight& path, EmissionWeight weight, bool in_lanes) {
     auto& [c, walk, met, v, seen, aov] = path;
     bool const records = aov && walk.vertex == 0;
     v.mesh = in_lanes && !records ? c.world.plain_mesh(met) : nullptr;
-    v.in_lanes = v.mesh != nullptr;
+    if (!v.mesh) return advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()]);
+    // Most of what paths meet: no more is asked of the surface by itself.
+    walk.met = nullptr;
+    v.hit.t = met.t;
+    return true;
+}
+
+bool prepare(PathInFlight& path, bool in_lanes) {
+    auto& [c, walk, met, v, seen, aov] = path;
     if (v.mesh) {
-        // Most of what paths meet: no more is asked of the surface by itself.
-        walk.met = nullptr;
-        v.hit.t = met.t;
+        v.in_lanes = true;
         make_plain_bsdf(v.mesh->reflectance, c.lambda, v.bsdf);
         v.is = {};
         return true;
     }
-    if (!advance(c, walk, weight, v, seen[walk.path_class.ends_on_light()])) return false;
     v.in_lanes = in_lanes && prepare_in_lanes(c, v);
     bool const scatters = v.in_lanes || prepare(c, walk, v);
-    if (records) record_first_hit(c, walk, scatters, v, aov);
+    if (aov) record_first_hit(c, walk, scatters, v, aov);
     return scatters;
 }
 
@@ -41,6 +46,11 @@ Split split(Paths paths) {
 Paths joined(Split const& split) {
     auto const end = std::copy(split.singly.begin(), split.singly.end(), split.together.end());
     return {split.together.begin(), end};
+}
+
+void complete_hits(Paths paths) {
+    for (std::size_t first = 0; first < paths.size(); first += kLanes)
+        DiffuseLanes(paths.subspan(first, std::min(kLanes, paths.size() - first))).complete_hits();
 }
 
 }  // namespace nephroid

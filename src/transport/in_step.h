@@ -28,8 +28,14 @@ inline bool goes_in_lanes(PathContext const& c) {
 
 /// Finds what the paths' rays meet. Those of the camera have been traced.
 void trace_rays(Paths paths);
-/// What was met by the path's ray, and what that surface (or the environment) emits. False where the path ends.
-bool arrive(PathInFlight& path, EmissionWeight weight, bool in_lanes);
+/// The surface that was met by the path's ray, and what that (or the environment) emits. False where there is none.
+bool reach(PathInFlight& path, EmissionWeight weight, bool in_lanes);
+/// Scattering there; false where there is none.
+bool prepare(PathInFlight& path, bool in_lanes);
+/// Both.
+inline bool arrive(PathInFlight& path, EmissionWeight weight, bool in_lanes) {
+    return reach(path, weight, in_lanes) && prepare(path, in_lanes);
+}
 
 /// The paths at vertices that are `in_lanes`, and the others.
 struct Split {
@@ -38,6 +44,9 @@ struct Split {
 Split split(Paths paths);
 /// What is left of both, one after the other as they were.
 Paths joined(Split const& split);
+
+/// Fills what has been left out of hits that are `in_lanes`.
+void complete_hits(Paths paths);
 
 /// The numbers of one use at the vertices where the paths are, which are as far along all of them.
 template <class To>
@@ -92,8 +101,9 @@ Paths scatter_together(Paths paths, AtVertices what, Estimate const& estimate) {
         Paths const eight = paths.subspan(first, std::min(kLanes, paths.size() - first));
         DiffuseLanes const vertices(eight);
         if (what.sample_lights && light_in_lanes) vertices.add_direct(&light[first], what.mis);
-        if (kEstimates || light_singly) vertices.complete();
+        if (kEstimates || light_singly) vertices.complete_hits();
         for (std::size_t i = 0; i < eight.size() && light_singly; ++i) {
+            orient(eight[i]->walk, eight[i]->v);
             eight[i]->v.drawn.light = light[first + i];
             add_direct(*eight[i], what.mis);
         }

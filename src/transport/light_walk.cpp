@@ -2,46 +2,60 @@
 
 namespace nephroid {
 
-std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths, std::uint32_t* light) {
+EmissionNumbers draw_emission(PathContext& c, Aim const* aim) {
+    EmissionNumbers u;
     c.sampler.at(dimension::kSource);
-    // One light alone is no choice; towards casters there is more than one way.
-    double const u_source = aim || c.world.chooses_lights() ? c.sampler.next_1d_fine() : 0.0;
+    if (chooses_source(c, aim)) u.source = c.sampler.next_1d_fine();
     c.sampler.at(dimension::kSourcePoint);
-    Vec2 const u_point = c.sampler.next_2d();
+    u.point = c.sampler.next_2d();
     c.sampler.at(dimension::kSourceDirection);
-    Vec2 const u_direction = c.sampler.next_2d();
-    std::optional<LightRay> ray;
+    u.direction = c.sampler.next_2d();
+    return u;
+}
+
+std::optional<LightRay> send(PathContext const& c, Aim const* aim, EmissionNumbers const& u,
+                             std::uint32_t* light) {
     if (aim) {
-        Aim::Way const way = aim->choose(u_source);
+        Aim::Way const way = aim->choose(u.source);
         if (light) *light = way.light;
-        ray = aim->sample(c.world, way, u_point, u_direction, c.lambda);
-    } else {
-        ray = c.world.sample_emission(u_source, u_point, u_direction, c.lambda);
-        if (light) *light = ray ? ray->light : c.world.light_chosen_by(u_source).value_or(*light);
+        return aim->sample(c.world, way, u.point, u.direction, c.lambda);
     }
-    std::optional<LightStart> start;
-    if (!ray) return start;
-    Spectrum const power = ray->power();
+    auto ray = c.world.sample_emission(u.source, u.point, u.direction, c.lambda);
+    if (light) *light = ray ? ray->light : c.world.light_chosen_by(u.source).value_or(*light);
+    return ray;
+}
+
+bool begin_at_light(PathContext& c, LightRay const& ray, std::uint64_t paths, Walk& walk) {
+    Spectrum const power = ray.power();
     c.tainted = !power.is_finite();
-    if (power.is_black() || c.tainted) return start;
-    start.emplace();
-    start->ray = *ray;
-    Walk& w = start->walk;
-    w.mode = Mode::Importance;
-    w.ray = ray->start();
-    w.beta = power / static_cast<float>(paths);
-    w.specular = true;
-    if (c.world.encloses()) w.interiors = interiors_at(c.world, w.ray.o, c.stats);
+    if (power.is_black() || c.tainted) return false;
+    walk.mode = Mode::Importance;
+    walk.ray = ray.start();
+    walk.beta = power / static_cast<float>(paths);
+    walk.specular = true;
+    if (c.world.encloses()) walk.interiors = interiors_at(c.world, walk.ray.o, c.stats);
+    return true;
+}
+
+std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths, std::uint32_t* light) {
+    std::optional<LightStart> start;
+    auto const ray = send(c, aim, draw_emission(c, aim), light);
+    if (!ray) return start;
+    start.emplace(LightStart{{}, *ray});
+    if (!begin_at_light(c, *ray, paths, start->walk)) start.reset();
     return start;
 }
 
-bool survives_with_power(PathContext& c, Walk& walk, Spectrum before) {
+float power_survival(Walk const& walk, Spectrum before) {
     // What keep_hero() multiplied is the same power in one lane instead of four.
     bool const was_spread = before[1] + before[2] + before[3] > 0.0f;
-    float const most = before.max();
     float const left = walk.beta.max() * (walk.hero_only && was_spread ? 0.25f : 1.0f);
-    float const q = min(1.0f, left / most);
-    c.sampler.at(dimension::of(walk.vertex - 1, dimension::kRoulette));
+    return min(1.0f, left / before.max());
+}
+
+bool survives_with_power(PathContext& c, Walk& walk, Spectrum before) {
+    float const q = power_survival(walk, before);
+    c.sampler.at(roulette_dimension(walk));
     if (!(c.sampler.next_1d() < q)) return false;
     walk.beta /= q;
     return true;

@@ -9,18 +9,34 @@
 
 namespace nephroid {
 
+/// What a light path begins with: numbers that choose the source, a point of it, and a direction.
+struct EmissionNumbers {
+    double source = 0;
+    Vec2 point, direction;
+};
+/// One light alone is no choice; towards casters there is more than one way.
+inline bool chooses_source(PathContext const& c, Aim const* aim) { return aim || c.world.chooses_lights(); }
+EmissionNumbers draw_emission(PathContext& c, Aim const* aim);
+/// A ray by the power of the lights or, with `aim` (where something casts), towards casters. Nothing where the light sends nothing. `light`,
+/// where given: who was asked, also then; untouched without lights.
+std::optional<LightRay> send(PathContext const& c, Aim const* aim, EmissionNumbers const& u,
+                             std::uint32_t* light);
+/// The walk of such a ray, one of `paths`, which is new. False where it carries nothing, or (c.tainted) what is no number.
+bool begin_at_light(PathContext& c, LightRay const& ray, std::uint64_t paths, Walk& walk);
+
 /// The beginning of a light path: the ray is on its way, no surface was met.
 struct LightStart {
     Walk walk;
     LightRay ray;
 };
-/// Emits path `c.sampler` is of, one of `paths`, by the power of the lights or, with `aim` (where something casts), towards
-/// casters. Nothing where the light sends nothing, or (c.tainted) what is no number. `light`, where given: who was asked, also then; untouched without lights.
+/// All of that: the path that `c.sampler` is of.
 std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t paths,
                                std::uint32_t* light = nullptr);
 
 /// Roulette of light paths: a path survives a scattering with the share of its power that is left, so that photons weigh nearly
 /// the same (Jensen 2001, 5.2). `before` is beta before the scattering.
 bool survives_with_power(PathContext& c, Walk& walk, Spectrum before);
+/// That share, at most 1.
+float power_survival(Walk const& walk, Spectrum before);
 
 }  // namespace nephroid

@@ -1,8 +1,7 @@
 #include "transport/shooting.h"
 
-#include "light_walk.h"
-#include "photon_plan.h"
-#include "scene/match.h"
+#include "light_batch.h"
+#include "shoot.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,119 +16,6 @@ namespace {
 /// So many paths are one task, and lie in the map one after the other whoever traces them: few enough that no thread waits long for the
 /// last of them.
 constexpr std::uint64_t kChunk = 1024;
-/// Whether to stop is asked once in so many paths.
-constexpr std::uint64_t kPatience = 64;
-
-PhotonShooting shooting_of(RenderJob const& job) {
-    return match(job.settings().integrator, [](auto const& i) -> PhotonShooting {
-        if constexpr (requires { i.shooting; }) return i.shooting;
-        return {};
-    });
-}
-
-/// What all paths of a shot have in common.
-struct Shoot {
-    RenderJob const& job;
-    PhotonPlan const& plan;
-    ShotKind kind;
-    Wavelengths lambda;
-    std::uint64_t first, paths;  // numbers of the pass's block of the sequence
-    std::uint32_t max_depth;
-    Aim const* aim;
-    bool sorts_caustics;  // a map of their own has them
-
-    Shoot(RenderJob const& j, PhotonPlan const& p, ShotKind k, std::uint64_t pass, std::uint64_t n)
-        : job(j),
-          plan(p),
-          kind(k),
-          lambda(j.pass_wavelengths(pass)),
-          first(pass * n),
-          paths(n),
-          max_depth(static_cast<std::uint32_t>(std::max(0, shooting_of(j).max_depth))),
-          aim(k == ShotKind::Caustic && shooting_of(j).aim && p.aim.casts() ? &p.aim : nullptr),
-          sorts_caustics(p.caustic_paths > 0) {}
-
-    [[nodiscard]] bool keeps(Walk const& walk, bool caustic) const {
-        switch (kind) {
-            case ShotKind::Global:
-                return true;
-            case ShotKind::Caustic:
-                return caustic;
-            case ShotKind::Others:
-                return !(caustic && sorts_caustics);
-            case ShotKind::Indirect:
-                break;
-        }
-        return walk.vertex > 0 && !(caustic && sorts_caustics);
-    }
-};
-
-/// How a path ended: a member of PhotonCounts.
-using End = std::uint64_t PhotonCounts::*;
-
-/// Where alpha or a mix leaves it to chance whether a surface keeps a photon, the same chance decides whether a ray from the eye asks
-/// for it: photons there stand for those that went on as well, or such a surface would be lit by its share of the light alone.
-float share_kept(PathContext const& c, Vertex const& v) {
-    float share = c.world.presence(v.hit);
-    if (c.world.assets().data(v.hit.material).mix) {
-        TexturePoint at;
-        at.p = v.hit.s.p;
-        at.uv = v.hit.s.uv;
-        at.n = v.hit.s.ng;
-        if (float const s = spreading_share(c.world.assets(), v.hit.material, at, c.lambda); s > 0.0f)
-            share *= s;
-    }
-    return share;
-}
-
-PhotonRecord photon_of(PathContext const& c, Walk const& walk, Vertex const& v, std::uint32_t light,
-                       bool caustic) {
-    PhotonRecord r;
-    r.p = v.hit.s.p;
-    r.wi = -walk.ray.d;
-    r.n = facing_normal(walk, v);
-    r.power = walk.beta / share_kept(c, v);
-    r.bounces = walk.vertex;
-    r.light = light;
-    r.caustic = caustic;
-    r.hero_only = walk.hero_only;
-    return r;
-}
-
-/// Path `i` of a shot, from its light to its end. `visit` is told where it goes: begins(ray), meets(point), lands(photon),
-/// leaves(ray).
-template <class Visit>
-End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
-    std::uint64_t const which =
-        s.kind == ShotKind::Caustic ? stream::kCausticPhotons : stream::kGlobalPhotons;
-    PathSampler sampler(s.job.light_sequence(), which, 0, s.first + i);
-    PathContext c{s.job, s.job.world(), s.lambda, sampler, stats};
-    auto start = emit(c, s.aim, s.paths, &light);
-    if (!start) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark;
-    Walk& walk = start->walk;
-    visit.begins(walk.ray);
-    Vertex v;
-    Spectrum unseen;
-    for (;;) {
-        if (!advance(c, walk, EmissionWeight::None, v, unseen)) {
-            visit.leaves(walk.ray);
-            return &PhotonCounts::escaped;
-        }
-        visit.meets(v.hit.s.p);
-        if (!walk.beta.is_finite()) return &PhotonCounts::broken;
-        // Light that an absorbing medium has swallowed to the last float is no photon.
-        if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
-        bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(c, walk, v, light, caustic));
-        if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
-        Spectrum const before = walk.beta;
-        if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;
-        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
-        if (s.kind == ShotKind::Caustic && !walk.path_class.all_specular()) return &PhotonCounts::landed;
-        if (!survives_with_power(c, walk, before)) return &PhotonCounts::absorbed;
-    }
-}
-
 /// Where a ray that leaves the scene is past all of it.
 Vec3 leaving_point(Bounds3 const& box, Ray const& ray) {
     float far = kInfinity;
@@ -141,25 +27,6 @@ Vec3 leaving_point(Bounds3 const& box, Ray const& ray) {
     float const t = far > 1e-3f * wide && std::isfinite(far) ? far : wide;
     return ray.o + t * ray.d;
 }
-
-/// The photons of a chunk, and how its paths ended, by source.
-struct Chunk {
-    std::vector<Photon> photons;
-    struct Path {
-        std::uint32_t light = 0, stored = 0;
-        End end = &PhotonCounts::dark;
-    };
-    std::vector<Path> paths;
-    RayStats rays;
-
-    void begins(Ray const&) const {}
-    void meets(Vec3) const {}
-    void leaves(Ray const&) const {}
-    void lands(PhotonRecord const& r) {
-        photons.emplace_back(r);
-        ++paths.back().stored;
-    }
-};
 
 }  // namespace
 
@@ -180,20 +47,19 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
     std::uint64_t done = 0;
     std::atomic<bool> stopped = false;
     tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t n) {
-        Chunk chunk;
+        PhotonChunk chunk;
+        LightBatch batch(s, chunk);
         std::uint64_t const begin = n * kChunk, end = std::min(paths, begin + kChunk);
-        chunk.paths.reserve(end - begin);
-        for (std::uint64_t i = begin; i < end; ++i) {
-            if (i % kPatience == 0 && (stopped || control.stopped())) {
+        for (std::uint64_t i = begin; i < end; i += kMostInStep) {
+            if (stopped || control.stopped()) {
                 stopped = true;
                 return;
             }
-            Chunk::Path& path = chunk.paths.emplace_back();
-            path.end = follow_light(s, i, path.light, chunk.rays, chunk);
+            batch.follow(i, std::min<std::uint64_t>(kMostInStep, end - i));
         }
         photons[n] = std::move(chunk.photons);
         std::lock_guard const lock(adding);
-        for (Chunk::Path const& path : chunk.paths) {
+        for (PhotonChunk::Path const& path : chunk.paths) {
             PhotonCounts& counts = shot.by_source[world.source_of(path.light)];
             ++counts.emitted;
             counts.stored += path.stored;

@@ -12,6 +12,7 @@ namespace {
 void estimate(PathInFlight& path, std::uint32_t most) {
     auto& [c, walk, met, v, seen, aov] = path;
     if (v.is.near_specular) return;
+    if (v.in_lanes) orient(walk, v);
     PhotonMaps const& maps = *c.photons;
     Estimate const caustic = from_caustics(c, walk, v, most);
     Estimate const global = reflected(c, walk, v, maps.global, maps.global_rule, most);

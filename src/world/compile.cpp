@@ -171,7 +171,8 @@ struct Builder {
         std::vector<PlainMesh> plain(record_count[0]);
         for (std::size_t i = 0; i < plain.size(); ++i) {
             ObjectRecord const& r = parts.records[i];
-            if (r.emits() || r.passage != Passage::Solid || !r.material.valid()) continue;
+            if (r.emits() || r.passage != Passage::Solid || !r.material.valid() || r.object->alpha.valid())
+                continue;
             MaterialData const& data = assets.data(r.material);
             if (data.plain)
                 plain[i] = {std::get_if<TriangleMesh>(&r.object->shape), r.flip, data.reflectance};

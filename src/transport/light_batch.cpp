@@ -1,0 +1,108 @@
+#include "light_batch.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace nephroid {
+
+Paths LightBatch::emit(std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) going_[i] = &paths_[i];
+    Paths const all{going_.data(), n};
+    std::array<EmissionNumbers, kMostInStep> numbers;
+    draw_2d(all, dimension::kSourcePoint,
+            [&](PathInFlight const& path) -> Vec2& { return numbers[path.c.path].point; });
+    draw_2d(all, dimension::kSourceDirection,
+            [&](PathInFlight const& path) -> Vec2& { return numbers[path.c.path].direction; });
+    return keep(all, [&](PathInFlight& path) {
+        PathContext& c = path.c;
+        EmissionNumbers& u = numbers[c.path];
+        if (chooses_source(c, shoot_.aim)) {
+            c.sampler.at(dimension::kSource);
+            u.source = c.sampler.next_1d_fine();
+        }
+        c.tainted = false;
+        auto const ray = send(c, shoot_.aim, u, &told(path).light);
+        if (!ray) return ends(path, &PhotonCounts::dark);
+        return begin_at_light(c, *ray, shoot_.paths, *std::construct_at(&path.walk)) ||
+               ends(path, c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark);
+    });
+}
+
+bool LightBatch::arrive(PathInFlight& path, bool in_lanes) {
+    if (!reach(path, EmissionWeight::None, in_lanes)) return ends(path, &PhotonCounts::escaped);
+    if (!path.walk.beta.is_finite()) return ends(path, &PhotonCounts::broken);
+    // Light that an absorbing medium has swallowed to the last float is no photon.
+    return (!path.walk.beta.is_black() && prepare(path, in_lanes)) || ends(path, &PhotonCounts::absorbed);
+}
+
+void LightBatch::land(PathInFlight const& path) {
+    Walk const& walk = path.walk;
+    bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
+    if (path.v.is.near_specular || !shoot_.keeps(walk, caustic)) return;
+    landed_.push_back(
+        {path.c.path, Photon(photon_of(path.c, walk, path.v, told(path).light, caustic))});
+    ++told(path).stored;
+}
+
+Paths LightBatch::survivors(Paths paths) {
+    if (paths.empty()) return paths;
+    std::array<float, kMostInStep> drawn;
+    std::array<PathSampler*, kMostInStep> samplers;
+    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
+    draw_1d({samplers.data(), paths.size()}, roulette_dimension(paths.front()->walk), drawn.data());
+    float const* u = drawn.data();
+    return keep(paths, [&](PathInFlight& path) {
+        float const q = power_survival(path.walk, before_[path.c.path]);
+        if (!(*u++ < q)) return ends(path, &PhotonCounts::absorbed);
+        path.walk.beta /= q;
+        return true;
+    });
+}
+
+void LightBatch::follow(std::uint64_t first, std::size_t n) {
+    begun_ = chunk_.paths.size();
+    chunk_.paths.resize(begun_ + n);
+    landed_.clear();
+    for (std::size_t i = 0; i < n; ++i) samplers_[i] = shoot_.sampler(first + i);
+    bool const lanes = goes_in_lanes(paths_.front().c);
+    auto const leave_photon = [&](PathInFlight& path) {
+        land(path);
+        before_[path.c.path] = path.walk.beta;
+        told(path).end = &PhotonCounts::absorbed;  // unless it goes on
+    };
+    Paths paths = emit(n);
+    for (std::uint32_t vertex = 0; !paths.empty(); ++vertex) {
+        trace_rays(paths);
+        paths = keep(paths, [&](PathInFlight& path) { return arrive(path, lanes); });
+        auto const [together, singly] = split(paths);
+        if (vertex >= shoot_.max_depth) {
+            complete_hits(together);
+            for (PathInFlight* path : paths) land(*path), ends(*path, &PhotonCounts::too_long);
+            break;
+        }
+        paths = joined({scatter_together(together, {.sample_lights = false}, leave_photon),
+                        scatter_singly(singly, {.sample_lights = false}, leave_photon)});
+        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
+        if (shoot_.kind == ShotKind::Caustic)
+            paths = keep(paths, [&](PathInFlight& path) {
+                return path.walk.path_class.all_specular() || ends(path, &PhotonCounts::landed);
+            });
+        paths = survivors(paths);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (paths_[i].c.tainted) ends(paths_[i], &PhotonCounts::broken);
+    append_landed(n);
+}
+
+void LightBatch::append_landed(std::size_t n) {
+    std::array<std::size_t, kMostInStep> at;
+    std::size_t size = chunk_.photons.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        at[i] = size;
+        size += chunk_.paths[begun_ + i].stored;
+    }
+    chunk_.photons.resize(size);
+    for (Landed const& l : landed_) chunk_.photons[at[l.path]++] = l.photon;
+}
+
+}  // namespace nephroid
