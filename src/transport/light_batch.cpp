@@ -5,26 +5,47 @@
 
 namespace nephroid {
 
+bool LightBatch::begin(PathInFlight& path, Ray const& ray, Spectrum power) {
+    return begin_at_light(path.c, ray, power, shoot_.paths, *std::construct_at(&path.walk)) ||
+           ends(path, path.c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark);
+}
+
 Paths LightBatch::emit(std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) going_[i] = &paths_[i];
+    for (std::size_t i = 0; i < n; ++i) {
+        going_[i] = &paths_[i];
+        paths_[i].c.tainted = false;
+    }
     Paths const all{going_.data(), n};
-    std::array<EmissionNumbers, kMostInStep> numbers;
+    World const& world = shoot_.job.world();
+    std::array<Vec2, kMostInStep> point;
+    std::array<Vec2, kMostInStep> direction;
     draw_2d(all, dimension::kSourcePoint,
-            [&](PathInFlight const& path) -> Vec2& { return numbers[path.c.path].point; });
+            [&](PathInFlight const& path) -> Vec2& { return point[path.c.path]; });
     draw_2d(all, dimension::kSourceDirection,
-            [&](PathInFlight const& path) -> Vec2& { return numbers[path.c.path].direction; });
+            [&](PathInFlight const& path) -> Vec2& { return direction[path.c.path]; });
+    if (shoot_.aim || !world.has_lone_flat_light())
+        return keep(all, [&](PathInFlight& path) {
+            PathContext& c = path.c;
+            EmissionNumbers const u{draw_source(c, shoot_.aim), point[c.path], direction[c.path]};
+            auto const ray = send(c, shoot_.aim, u, &told(path).light);
+            return ray ? begin(path, ray->start(), ray->power()) : ends(path, &PhotonCounts::dark);
+        });
+    // Eight at a time.
+    EmittedLanes emitted;
     return keep(all, [&](PathInFlight& path) {
-        PathContext& c = path.c;
-        EmissionNumbers& u = numbers[c.path];
-        if (chooses_source(c, shoot_.aim)) {
-            c.sampler.at(dimension::kSource);
-            u.source = c.sampler.next_1d_fine();
+        std::size_t const lane = path.c.path % kLanes;
+        if (lane == 0) {
+            Vec2Lanes at;
+            Vec2Lanes along;
+            for (std::size_t i = 0; i < std::min(kLanes, n - path.c.path); ++i) {
+                at.set(i, point[path.c.path + i]);
+                along.set(i, direction[path.c.path + i]);
+            }
+            world.emit_lone_flat_light(at, along, emitted);
         }
-        c.tainted = false;
-        auto const ray = send(c, shoot_.aim, u, &told(path).light);
-        if (!ray) return ends(path, &PhotonCounts::dark);
-        return begin_at_light(c, *ray, shoot_.paths, *std::construct_at(&path.walk)) ||
-               ends(path, c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark);
+        if (!(emitted.pdf[lane] > 0.0f)) return ends(path, &PhotonCounts::dark);
+        return begin(path, {emitted.o[lane], emitted.d[lane]},
+                     emitted.radiance->sample(path.c.lambda) * emitted.per_radiance[lane]);
     });
 }
 

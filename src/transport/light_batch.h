@@ -47,6 +47,7 @@ class LightBatch {
     }
     /// Those that set off.
     Paths emit(std::size_t n);
+    bool begin(PathInFlight& path, Ray const& ray, Spectrum power);
     /// Whether there is a surface that scatters.
     bool arrive(PathInFlight& path, bool in_lanes);
     void land(PathInFlight const& path);

@@ -2,10 +2,16 @@
 
 namespace nephroid {
 
+double draw_source(PathContext& c, Aim const* aim) {
+    // One light alone is no choice; towards casters there is more than one way.
+    if (!aim && !c.world.chooses_lights()) return 0;
+    c.sampler.at(dimension::kSource);
+    return c.sampler.next_1d_fine();
+}
+
 EmissionNumbers draw_emission(PathContext& c, Aim const* aim) {
     EmissionNumbers u;
-    c.sampler.at(dimension::kSource);
-    if (chooses_source(c, aim)) u.source = c.sampler.next_1d_fine();
+    u.source = draw_source(c, aim);
     c.sampler.at(dimension::kSourcePoint);
     u.point = c.sampler.next_2d();
     c.sampler.at(dimension::kSourceDirection);
@@ -25,12 +31,11 @@ std::optional<LightRay> send(PathContext const& c, Aim const* aim, EmissionNumbe
     return ray;
 }
 
-bool begin_at_light(PathContext& c, LightRay const& ray, std::uint64_t paths, Walk& walk) {
-    Spectrum const power = ray.power();
+bool begin_at_light(PathContext& c, Ray const& ray, Spectrum power, std::uint64_t paths, Walk& walk) {
     c.tainted = !power.is_finite();
     if (power.is_black() || c.tainted) return false;
     walk.mode = Mode::Importance;
-    walk.ray = ray.start();
+    walk.ray = ray;
     walk.beta = power / static_cast<float>(paths);
     walk.specular = true;
     if (c.world.encloses()) walk.interiors = interiors_at(c.world, walk.ray.o, c.stats);
@@ -42,7 +47,7 @@ std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t pat
     auto const ray = send(c, aim, draw_emission(c, aim), light);
     if (!ray) return start;
     start.emplace(LightStart{{}, *ray});
-    if (!begin_at_light(c, *ray, paths, start->walk)) start.reset();
+    if (!begin_at_light(c, ray->start(), ray->power(), paths, start->walk)) start.reset();
     return start;
 }
 

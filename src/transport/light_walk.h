@@ -14,15 +14,14 @@ struct EmissionNumbers {
     double source = 0;
     Vec2 point, direction;
 };
-/// One light alone is no choice; towards casters there is more than one way.
-inline bool chooses_source(PathContext const& c, Aim const* aim) { return aim || c.world.chooses_lights(); }
+double draw_source(PathContext& c, Aim const* aim);
 EmissionNumbers draw_emission(PathContext& c, Aim const* aim);
 /// A ray by the power of the lights or, with `aim` (where something casts), towards casters. Nothing where the light sends nothing. `light`,
 /// where given: who was asked, also then; untouched without lights.
 std::optional<LightRay> send(PathContext const& c, Aim const* aim, EmissionNumbers const& u,
                              std::uint32_t* light);
 /// The walk of such a ray, one of `paths`, which is new. False where it carries nothing, or (c.tainted) what is no number.
-bool begin_at_light(PathContext& c, LightRay const& ray, std::uint64_t paths, Walk& walk);
+bool begin_at_light(PathContext& c, Ray const& ray, Spectrum power, std::uint64_t paths, Walk& walk);
 
 /// The beginning of a light path: the ray is on its way, no surface was met.
 struct LightStart {

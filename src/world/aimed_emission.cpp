@@ -4,6 +4,7 @@
 // subtends from there; light from infinity keeps its direction and is sent through the ball's projection instead.
 #include "emission.h"
 #include "emitter_sampling.h"
+#include "lambert_ray.h"
 #include "light_table.h"
 #include "sampling/warp.h"
 #include "world/world.h"
@@ -38,19 +39,6 @@ bool meets(BoundingSphere const& ball, Vec3 from, Vec3 w) {
 }
 /// From a surface, wider cones than this give way to the cosine.
 constexpr float kNearCos = 0.707f;
-
-/// Lambert's emission by the cosine, on either side where both shine.
-Vec3 sample_lambert(Vec3& n, bool two_sided, Vec2 u) {
-    if (two_sided) {
-        bool const back = u.x >= 0.5f;
-        u.x = min(2.0f * (back ? u.x - 0.5f : u.x), kOneMinusEpsilon);
-        if (back) n = -n;
-    }
-    return normalize(frame_from_z(n).from_local(square_to_cosine_hemisphere(u)));
-}
-float lambert_density(Vec3 n, Vec3 w, bool two_sided) {
-    return cosine_hemisphere_pdf(dot(n, w)) * (two_sided ? 0.5f : 1.0f);
-}
 
 /// By solid angle, of a ray that leaves a surface.
 float density_from_surface(EmissionSample const& e, BoundingSphere const* ball, bool two_sided) {
@@ -137,8 +125,10 @@ std::optional<LightRay> World::emit_from_surface(std::uint32_t light, BoundingSp
         if (!(dot(e.n, e.ray.d) > 0.0f)) return result;
         e.pdf_direction = uniform_cone_pdf(cone->one_minus_cos);
     } else {
-        e.ray.d = sample_lambert(e.n, two_sided, u_direction);
-        e.pdf_direction = lambert_density(e.n, e.ray.d, two_sided);
+        LambertRay const lambert(e.n, two_sided, u_direction);
+        e.n = lambert.n;
+        e.ray.d = lambert.d;
+        e.pdf_direction = lambert.pdf;
         if (!(e.pdf_direction > 0.0f)) return result;
     }
     e.p_error = point.p_error;

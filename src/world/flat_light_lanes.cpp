@@ -2,6 +2,7 @@
 // World::sample_light() would give it (emitter_sampling.cpp, FlatEmitter); the loops are over the functions that are used there, and the
 // compiler makes one instruction of eight.
 #include "emitter_sampling.h"
+#include "lambert_ray.h"
 #include "sampling/warp.h"
 #include "seen_flat.h"
 #include "world/world.h"
@@ -10,6 +11,13 @@
 namespace nephroid {
 
 namespace {
+
+/// The point of a square by area (FlatEmitter::draw_by_area).
+[[gnu::always_inline]] inline Vec3 point_of(LightEntry const& e, bool triangle, Vec2 square) {
+    Vec2 const half = square_to_triangle(square);
+    Vec2 const st{triangle ? half.x : square.x, triangle ? half.y : square.y};
+    return e.corner + st.x * e.edge1 + st.y * e.edge2;
+}
 
 /// Those that see it at an angle where it is drawn by area, bent or not; of the others the point has no meaning.
 struct DrawnByArea {
@@ -37,9 +45,7 @@ void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restric
         bool const between = view == FlatView::Between;
         float const square_pdf = between ? bilinear_pdf(bent, weights.data()) : 1.0f;
         Vec2 const square{between ? bent.x : u.x[i], between ? bent.y : u.y[i]};
-        Vec2 const half = square_to_triangle(square);
-        Vec2 const st{triangle ? half.x : square.x, triangle ? half.y : square.y};
-        Vec3 const p = e.corner + st.x * e.edge1 + st.y * e.edge2;
+        Vec3 const p = point_of(e, triangle, square);
         Vec3 const way = p - r.p;
         float const r2 = length_squared(way);
         Vec3 const wi = way * (1.0f / std::sqrt(r2));
@@ -52,7 +58,31 @@ void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restric
     }
 }
 
+/// aimed_emission.cpp, emit_from_surface, where nothing is aimed at. `choice`: the probability of having chosen the light.
+void emit_by_area(LightEntry const& __restrict e, bool two_sided, float choice,
+                  Vec2Lanes const& __restrict u_position, Vec2Lanes const& __restrict u_direction,
+                  EmittedLanes& __restrict emitted) {
+    bool const triangle = e.shape == LightShape::Triangle;
+    float const area_pdf = e.area_pdf;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        Vec3 const p = point_of(e, triangle, u_position[i]);
+        LambertRay const ray(e.normal, two_sided, u_direction[i]);
+        emitted.o.set(i, offset_of_lane(p, e.p_error, ray.n, ray.d));
+        emitted.d.set(i, ray.d);
+        emitted.pdf[i] = ray.pdf;
+        emitted.per_radiance[i] = abs_dot(ray.n, ray.d) / (area_pdf * ray.pdf * choice);
+    }
+}
+
 }  // namespace
+
+void World::emit_lone_flat_light(Vec2Lanes const& u_position, Vec2Lanes const& u_direction,
+                                 EmittedLanes& emitted) const {
+    LightEntry const& e = lights_->entries.front();
+    Emitter const& emitter = lights_->emitters[e.emitter];
+    emit_by_area(e, emitter.two_sided, lights_->by_power.pmf(0), u_position, u_direction, emitted);
+    emitted.radiance = &emitter.radiance;
+}
 
 bool World::has_lone_flat_light() const { return lights_->lone_flat(); }
 

@@ -151,6 +151,9 @@ class World {
     /// Light on its way from a source, for tracing forward. The source is chosen by power.
     std::optional<LightRay> sample_emission(double u_choose, Vec2 u_position, Vec2 u_direction,
                                             Wavelengths const& lambda) const;
+    /// The rays of the one light (has_lone_flat_light) for eight paths; the bits of sample_emission().
+    void emit_lone_flat_light(Vec2Lanes const& u_position, Vec2Lanes const& u_direction,
+                              EmittedLanes& emitted) const;
     /// The densities with which sample_emission sends light from an emitting point along w, the choice of the light in `position`.
     EmissionDensity emission_density(SurfaceHit const& from, Vec3 w) const;
     /// … or from an infinite light through p along w (the direction in which it travels).
