@@ -52,11 +52,12 @@ struct Figures {
 void sweep(RenderJob const& job, int passes, Film& film, RayStats& stats) {
     constexpr int kTile = 16;
     auto const [x0, x1, y0, y1] = job.crop();
+    PassWork const none;
+    TileRenderer renderer(job, none, film, stats);
     for (int y = y0; y < y1; y += kTile)
         for (int x = x0; x < x1; x += kTile)
             for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(passes); ++i)
-                render_tile(job, PassWork{}, {x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)},
-                            {i, i + 1}, film, stats);
+                renderer.add({x, std::min(x + kTile, x1), y, std::min(y + kTile, y1)}, {i, i + 1});
 }
 
 Figures measure(std::string const& name, World const& world, ColorMode color, Options const& o) {

@@ -99,6 +99,16 @@ CameraRay PreparedCamera::general_ray(Vec2 film, Vec2 lens) const {
     return {{to_world_.point(o), normalize(to_world_.vector(d))}, 1.0f};
 }
 
+bool PreparedCamera::rays(Vec2Lanes const& __restrict film, Vec3Lanes& __restrict o,
+                          Vec3Lanes& __restrict d) const {
+    if (!is_pinhole_) return false;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        d.set(i, through_pinhole(film[i]));
+        o.set(i, position_);
+    }
+    return true;
+}
+
 std::optional<Vec2> PreparedCamera::project(Vec3 p) const {
     auto const s = sample_importance(p, {0.5f, 0.5f});  // the lens's centre
     return s ? std::optional<Vec2>(s->raster) : std::nullopt;

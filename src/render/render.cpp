@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -158,20 +159,22 @@ class Loop {
     }
 
     void render_tiles(PassRange batch, std::atomic<bool>& abandoned, std::atomic<std::uint64_t>& dropped) {
-        tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
-            Tile const& tile = tiles_[i];
-            undo_.keep(film_, tile, i);
-            // Pass by pass, so that a signal is heard soon.
-            for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) {
-                if (stopped()) {
-                    abandoned = true;
-                    return;
+        tbb::blocked_range<std::size_t> const all(0, tiles_.size());
+        tbb::parallel_for(all, [&](tbb::blocked_range<std::size_t> const& mine) {
+            TileRenderer renderer(job_, work_, film_, stats_[mine.begin()]);
+            for (std::size_t i = mine.begin(); i < mine.end(); ++i) {
+                undo_.keep(film_, tiles_[i], i);
+                // Pass by pass, so that a signal is heard soon.
+                for (std::uint64_t pass = batch.begin; pass < batch.end; ++pass) {
+                    if (stopped()) {
+                        abandoned = true;
+                        return;
+                    }
+                    dropped.fetch_add(renderer.add(tiles_[i], {pass, pass + 1}), std::memory_order_relaxed);
                 }
-                dropped.fetch_add(render_tile(job_, work_, tile, {pass, pass + 1}, film_, stats_[i]),
-                                  std::memory_order_relaxed);
+                tiles_done_.fetch_add(1, std::memory_order_relaxed);
+                report(false);
             }
-            tiles_done_.fetch_add(1, std::memory_order_relaxed);
-            report(false);
         });
     }
 
@@ -248,7 +251,7 @@ class Loop {
     Film& film_;
     std::vector<Tile> tiles_;
     Undo undo_;
-    std::vector<RayStats> stats_;  // one a tile: never shared
+    std::vector<RayStats> stats_;  // of runs of tiles, by the first: never shared
     RenderResult result_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_checkpoint_;

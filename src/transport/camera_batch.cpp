@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <new>
 
 namespace nephroid {
 
@@ -81,15 +80,27 @@ void CameraBatch::begin(std::size_t i) {
     FilterSample const f = job_.filter().sample(s.on_film);
     s.filter_weight = f.weight;
     s.sampler.at(dimension::kLens);
-    Vec2 const lens = job_.camera().has_lens() ? s.sampler.next_2d() : Vec2{0.5f, 0.5f};
+    s.lens = job_.camera().has_lens() ? s.sampler.next_2d() : Vec2{0.5f, 0.5f};
     s.sampler.at(dimension::kWavelength);
     if (job_.prepares())
         c.lambda = job_.pass_wavelengths(s.pass);
     else if (job_.settings().color == ColorMode::Spectral)
         c.lambda = Wavelengths::spectral(s.sampler.next_1d());
     s.at = Vec2{static_cast<float>(s.x) + 0.5f, static_cast<float>(s.y) + 0.5f} + f.offset;
-    // Built where it stands: a copy right after it was written waits for the writing.
-    ::new (static_cast<void*>(&s.camera)) CameraRay(job_.camera().ray(s.at, lens));
+}
+
+void CameraBatch::make_rays(std::size_t first) {
+    std::size_t const n = std::min(kLanes, size_ - first);
+    Vec2Lanes at;
+    for (std::size_t i = 0; i < n; ++i) at.set(i, samples_[first + i].at);
+    RayPacket& rays = rays_[first / kLanes];
+    bool const together = job_.camera().rays(at, rays.o, rays.d);
+    rays.used = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        Sample& s = samples_[first + i];
+        s.camera = together ? CameraRay{rays.ray(i), 1.0f} : job_.camera().ray(s.at, s.lens);
+        rays.set(i, s.camera.ray, kInfinity);
+    }
 }
 
 void CameraBatch::run(PathTrace* trace) {
@@ -98,9 +109,10 @@ void CameraBatch::run(PathTrace* trace) {
     for (std::size_t i = 0; i < size_; ++i) going[i] = &paths_[i];
     draw_2d({going.data(), size_}, dimension::kFilm,
             [&](PathInFlight const& path) -> Vec2& { return samples_[path.c.path].on_film; });
+    for (std::size_t i = 0; i < size_; ++i) begin(i);
+    for (std::size_t first = 0; first < size_; first += kLanes) make_rays(first);
     for (std::size_t i = 0; i < size_; ++i) {
         PathInFlight& path = paths_[i];
-        begin(i);
         path.c.tainted = false;
         path.c.trace = trace;
         path.seen = {};
@@ -126,13 +138,9 @@ void CameraBatch::run(PathTrace* trace) {
 
 void CameraBatch::trace_camera_rays() {
     std::array<RawHit, kLanes> hits;
-    RayPacket rays;
-    for (std::size_t begin = 0; begin < size_; begin += kLanes) {
-        std::size_t const n = std::min(kLanes, size_ - begin);
-        rays.used = 0;
-        for (std::size_t i = 0; i < n; ++i) rays.set(i, samples_[begin + i].camera.ray, kInfinity);
-        job_.world().intersect(rays, stats_, hits);
-        for (std::size_t i = 0; i < n; ++i) paths_[begin + i].met = hits[i];
+    for (std::size_t first = 0; first < size_; first += kLanes) {
+        job_.world().intersect(rays_[first / kLanes], stats_, hits);
+        for (std::size_t i = 0; i < std::min(kLanes, size_ - first); ++i) paths_[first + i].met = hits[i];
     }
 }
 

@@ -38,13 +38,17 @@ class CameraBatch {
         Vec2 on_film{0, 0};  // the numbers that choose …
         Vec2 at{0, 0};       // … where on the film, pixels
         float filter_weight = 1;
+        Vec2 lens{0.5f, 0.5f};
         CameraRay camera;
     };
 
     template <std::size_t... I>
     CameraBatch(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats,
                 std::index_sequence<I...>);
+    /// Draws what the camera asks for.
     void begin(std::size_t i);
+    /// The rays of eight samples.
+    void make_rays(std::size_t first);
     void trace_camera_rays();
     void finish(std::size_t i, PathTrace* trace);
 
@@ -55,6 +59,7 @@ class CameraBatch {
     std::size_t size_ = 0;
     std::array<Sample, kMostInStep> samples_;
     std::array<AovSample, kMostInStep> aovs_;
+    std::array<RayPacket, kMostInStep / kLanes> rays_;  // of the camera
     std::array<PathInFlight, kMostInStep> paths_;
     NearestPhotons nearest_;
     ShadowQueue shadows_;

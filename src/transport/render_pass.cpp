@@ -80,36 +80,44 @@ Wavelengths RenderJob::pass_wavelengths(std::uint64_t i) const {
     return Wavelengths::spectral(sampler.next_1d());
 }
 
-std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
-                          Film& film, RayStats& stats) {
-    auto const samples = static_cast<std::uint64_t>(samples_per_pass(job.settings()));
-    std::uint64_t dropped = 0;
-    if (work.light_paths) {
-        // The pass is one sample of every pixel: the sum of what was splatted there.
-        for (int y = tile.y0; y < tile.y1; ++y)
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                if (!film.add(x, y, work.light_paths->total(x, y), 1)) ++dropped;
-                if (!film.has_aovs()) continue;
-                AovSample aov;
-                aov.light = work.light_paths->at(x, y);
-                film.add_aov(x, y, passes.begin, aov, 1);
-            }
-        return dropped;
-    }
-    CameraBatch batch(job, work, film, stats);
+TileRenderer::TileRenderer(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats)
+    : job_(job), work_(work), film_(film) {
+    if (!work.light_paths) camera_ = std::make_unique<CameraBatch>(job, work, film, stats);
+}
+TileRenderer::~TileRenderer() = default;
+
+std::uint64_t TileRenderer::add(Tile const& tile, PassRange passes) {
+    if (!camera_) return add_light_paths(tile, passes);
+    auto const samples = static_cast<std::uint64_t>(samples_per_pass(job_.settings()));
+    std::uint64_t const before = camera_->dropped();
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x)
             for (std::uint64_t pass = passes.begin; pass < passes.end; ++pass)
                 for (std::uint64_t k = pass * samples; k < (pass + 1) * samples; ++k)
-                    batch.add(x, y, pass, k);
-    batch.run();
-    return batch.dropped();
+                    camera_->add(x, y, pass, k);
+    camera_->run();
+    return camera_->dropped() - before;
+}
+
+/// The pass is one sample of every pixel: the sum of what was splatted there.
+std::uint64_t TileRenderer::add_light_paths(Tile const& tile, PassRange passes) {
+    std::uint64_t dropped = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            if (!film_.add(x, y, work_.light_paths->total(x, y), 1)) ++dropped;
+            if (!film_.has_aovs()) continue;
+            AovSample aov;
+            aov.light = work_.light_paths->at(x, y);
+            film_.add_aov(x, y, passes.begin, aov, 1);
+        }
+    return dropped;
 }
 
 void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats) {
     auto const crop = job.crop();
     auto const work = prepare_pass(job, i, {});
-    film.add_dropped(render_tile(job, *work, {crop[0], crop[1], crop[2], crop[3]}, {i, i + 1}, film, stats));
+    TileRenderer renderer(job, *work, film, stats);
+    film.add_dropped(renderer.add({crop[0], crop[1], crop[2], crop[3]}, {i, i + 1}));
     film.finish_pass(i);
 }
 

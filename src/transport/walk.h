@@ -104,7 +104,7 @@ struct Walk {
 };
 
 /// How many paths go in step at most.
-inline constexpr std::size_t kMostInStep = 64;
+inline constexpr std::size_t kMostInStep = 128;
 
 /// Numbers of a vertex that were drawn ahead, together with those of other paths.
 struct Drawn {

@@ -68,12 +68,14 @@ inline Means measure(World const& world, Settings s, std::uint64_t passes, bool 
         RenderJob const job(world, s);
         Film film = job.make_film();
         std::uint64_t dropped = 0;
+        auto const add = [&](PassWork const& work, PassRange range) {
+            return TileRenderer(job, work, film, stats).add({0, nx, 0, ny}, range);
+        };
         if (job.prepares())
             for (std::uint64_t i = 0; i < passes; ++i)
-                dropped +=
-                    render_tile(job, *prepare_pass(job, i, {}), {0, nx, 0, ny}, {i, i + 1}, film, stats);
+                dropped += add(*prepare_pass(job, i, {}), {i, i + 1});
         else
-            dropped = render_tile(job, {}, {0, nx, 0, ny}, {0, passes}, film, stats);
+            dropped = add({}, {0, passes});
         CHECK(dropped == 0);
         for (std::size_t c = 0; c < 3; ++c) {
             double sum = 0;

@@ -2,6 +2,7 @@
 // the world to the film, for light that is traced forward (Veach 1997, 4.3 and 8.3; PBRT 3rd ed., 16.1.1).
 #pragma once
 
+#include "math/lanes.h"
 #include "math/ray.h"
 #include "math/transform.h"
 #include "scene/camera.h"
@@ -38,10 +39,10 @@ class PreparedCamera {
 
     /// `film`: raster coordinates, (0,0) the upper left corner, in pixels. `lens` in [0,1)^2.
     [[nodiscard]] CameraRay ray(Vec2 film, Vec2 lens) const {
-        if (!is_pinhole_) return general_ray(film, lens);
-        Vec2 const q = film * scale_ + shift_;
-        return {{position_, normalize(axes_[0] * q.x + axes_[1] * q.y + axes_[2])}, 1.0f};
+        return is_pinhole_ ? CameraRay{{position_, through_pinhole(film)}, 1.0f} : general_ray(film, lens);
     }
+    /// The same of eight places where every ray goes through one point and neither lens nor weight matter; false, and nothing done, elsewhere.
+    bool rays(Vec2Lanes const& __restrict film, Vec3Lanes& __restrict o, Vec3Lanes& __restrict d) const;
     /// Where a point of the world is seen, in raster coordinates, also beyond the picture's edge; nothing where no ray of the
     /// camera goes (behind it, or at its very place). Through a lens, as its centre sees it.
     [[nodiscard]] std::optional<Vec2> project(Vec3 p) const;
@@ -64,6 +65,10 @@ class PreparedCamera {
 
   private:
     [[nodiscard]] CameraRay general_ray(Vec2 film, Vec2 lens) const;
+    [[nodiscard]] Vec3 through_pinhole(Vec2 film) const {
+        Vec2 const q = film * scale_ + shift_;
+        return normalize(axes_[0] * q.x + axes_[1] * q.y + axes_[2]);
+    }
 
     Camera camera_;
     Transform to_world_;

@@ -17,7 +17,8 @@
 
 namespace nephroid {
 
-class PhotonPlan;  // photon_plan.h
+class PhotonPlan;   // photon_plan.h
+class CameraBatch;  // camera_batch.h
 
 /// What stays the same over all passes of a render.
 class RenderJob {
@@ -69,11 +70,24 @@ struct Tile {
 /// i). Nothing when `control` stopped it.
 std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, PrepareControl const& control);
 
-/// Adds the samples of `passes` (ascending) to the pixels of `tile`; returns how many were not finite and were dropped. Does
-/// not mark the passes as finished. Tiles that do not overlap may run at the same time. `work` is of the passes; where the job
-/// prepares passes there is but one.
-std::uint64_t render_tile(RenderJob const& job, PassWork const& work, Tile const& tile, PassRange passes,
-                          Film& film, RayStats& stats);
+/// What one thread needs to render tiles, one after the other. `work` is of the passes; where the job prepares passes there is but one.
+class TileRenderer {
+  public:
+    TileRenderer(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats);
+    ~TileRenderer();
+
+    /// Adds the samples of `passes` (ascending) to the pixels of `tile`; returns how many were not finite and were dropped. Does
+    /// not mark the passes as finished. Tiles that do not overlap may be rendered at the same time, by others.
+    std::uint64_t add(Tile const& tile, PassRange passes);
+
+  private:
+    std::uint64_t add_light_paths(Tile const& tile, PassRange passes);
+
+    RenderJob const& job_;
+    PassWork const& work_;
+    Film& film_;
+    std::unique_ptr<CameraBatch> camera_;  // none: light paths draw the picture
+};
 
 /// The definition: every pixel of pass i, and the pass marked as finished.
 void render_pass(RenderJob const& job, std::uint64_t i, Film& film, RayStats& stats);
