@@ -46,8 +46,7 @@ CameraBatch::CameraBatch(RenderJob const& job, PassWork const& work, Film& film,
       paths_{PathInFlight{{job, job.world(), {}, samples_[I].sampler, stats}, {}, {}, {}, {}}...},
       shadows_(job.world(), stats) {
     Integrator const& integrator = job.settings().integrator;
-    bool const in_step =
-        match(integrator, []<class Kind>(Kind const&) { return GoesInStep<Kind>; });
+    bool const in_step = match(integrator, []<class Kind>(Kind const&) { return GoesInStep<Kind>; });
     for (std::size_t i = 0; i < kMostInStep; ++i) {
         PathInFlight& path = paths_[i];
         path.c.hemisphere = hemisphere_of(integrator);
@@ -128,8 +127,7 @@ void CameraBatch::run(PathTrace* trace) {
                 follow_paths(integrator, {going.data(), size_});
             else
                 for (std::size_t i = 0; i < size_; ++i)
-                    paths_[i].seen =
-                        radiance(integrator, paths_[i].c, samples_[i].camera.ray, paths_[i].aov);
+                    paths_[i].seen = radiance(integrator, paths_[i].c, samples_[i].camera.ray, paths_[i].aov);
         });
     shadows_.settle();
     for (std::size_t i = 0; i < size_; ++i) finish(i, trace);

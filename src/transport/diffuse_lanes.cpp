@@ -9,9 +9,7 @@ namespace nephroid {
 
 namespace {
 
-Spectrum reflectance(PathInFlight const& path) {
-    return std::get_if<DiffuseBsdf>(&path.v.bsdf)->reflectance;
-}
+Spectrum reflectance(PathInFlight const& path) { return std::get_if<DiffuseBsdf>(&path.v.bsdf)->reflectance; }
 /// cos(theta) / pi where both directions are on one side, else 0.
 float density(float cos_wo, float cos_wi) {
     float const pdf = cosine_hemisphere_pdf(std::abs(cos_wi));
@@ -82,8 +80,7 @@ void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
         float const weight = mis ? power_heuristic(light.pdf[i], pdf) : 1.0f;
         arriving.factor[i] = std::abs(cos_wi) * weight / light.pdf[i];
         arriving.arrives[i] = (light.pdf[i] > 0.0f) & (cos_wo_[i] * cos_wi > 0.0f);
-        ShadowRay const s =
-            shadow_ray(s_.p[i], s_.p_error[i], s_.ng[i], light.p[i], light.p_error, light.n);
+        ShadowRay const s = shadow_ray(s_.p[i], s_.p_error[i], s_.ng[i], light.p[i], light.p_error, light.n);
         arriving.rays.o.set(i, s.ray.o);
         arriving.rays.d.set(i, s.ray.d);
         arriving.rays.t_max[i] = s.t_max;
@@ -95,10 +92,9 @@ void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
         // f Li |cos| / pdf (PBRT 4th ed., eq. 13.6), weighed by MIS.
         Spectrum const f = reflectance(path) * kInvPi * light.radiance->sample(path.c.lambda);
         if (f.is_black()) continue;
-        path.c.shadows->wait(path.c.path, path.walk.path_class.ends_after(false),
-                             path.walk.beta * (f * arriving.factor[i]),
-                             {arriving.rays.ray(i), arriving.rays.t_max[i], arriving.lit[i] != 0},
-                             path.walk.vertex);
+        path.c.shadows->wait(
+            path.c.path, path.walk.path_class.ends_after(false), path.walk.beta * (f * arriving.factor[i]),
+            {arriving.rays.ray(i), arriving.rays.t_max[i], arriving.lit[i] != 0}, path.walk.vertex);
     }
 }
 
@@ -112,8 +108,8 @@ LaneMask DiffuseLanes::scatter(Vec2 const* u_direction) const {
         local.z = cos_wo_[i] < 0.0f ? -local.z : local.z;
         leaving.pdf[i] = density(cos_wo_[i], local.z);
         Vec3 const wi = normalize(frame_from_z(s_.ns[i]).from_local(local));
-        leaving.factor[i] = std::abs(local.z) / leaving.pdf[i] *
-                            shading_normal_scale(mode, -d_[i], wi, s_.ns[i], s_.ng[i]);
+        leaving.factor[i] =
+            std::abs(local.z) / leaving.pdf[i] * shading_normal_scale(mode, -d_[i], wi, s_.ns[i], s_.ng[i]);
         leaving.d.set(i, wi);
         leaving.o.set(i, offset_of_lane(s_.p[i], s_.p_error[i], s_.ng[i], wi));
     }

@@ -38,8 +38,8 @@ bool prepare(PathInFlight& path, bool in_lanes) {
 }
 
 Split split(Paths paths) {
-    auto const singly = std::partition(paths.begin(), paths.end(),
-                                       [](PathInFlight const* path) { return path->v.in_lanes; });
+    auto const singly =
+        std::partition(paths.begin(), paths.end(), [](PathInFlight const* path) { return path->v.in_lanes; });
     return {{paths.begin(), singly}, {singly, paths.end()}};
 }
 

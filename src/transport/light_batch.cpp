@@ -60,8 +60,7 @@ void LightBatch::land(PathInFlight const& path) {
     Walk const& walk = path.walk;
     bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
     if (path.v.is.near_specular || !shoot_.keeps(walk, caustic)) return;
-    landed_.push_back(
-        {path.c.path, Photon(photon_of(path.c, walk, path.v, told(path).light, caustic))});
+    landed_.push_back({path.c.path, Photon(photon_of(path.c, walk, path.v, told(path).light, caustic))});
     ++told(path).stored;
 }
 

@@ -39,7 +39,8 @@ class LightBatch {
     LightBatch(Shoot const& s, PhotonChunk& chunk, std::index_sequence<I...>)
         : shoot_(s),
           chunk_(chunk),
-          paths_{PathInFlight{{s.job, s.job.world(), s.lambda, samplers_[I], chunk.rays}, {}, {}, {}, {}}...} {
+          paths_{
+              PathInFlight{{s.job, s.job.world(), s.lambda, samplers_[I], chunk.rays}, {}, {}, {}, {}}...} {
         for (std::size_t i = 0; i < kMostInStep; ++i) {
             paths_[i].c.path = static_cast<std::uint32_t>(i);
             paths_[i].v.drawn_ahead = true;

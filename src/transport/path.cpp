@@ -45,11 +45,11 @@ void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths) {
         paths = keep(paths, [&](PathInFlight& path) { return arrive(path, weight, lanes) && vertex < most; });
         // Light is sampled; the path goes on by scattering, and ends by chance.
         auto const [together, singly] = split(paths);
-        paths = joined({scatter_together(together, what, NothingElse{}),
-                        scatter_singly(singly, what, NothingElse{})});
-        paths = traced ? keep(paths,
-                              [&](PathInFlight& path) { return survives(path.c, path.walk, p.roulette); })
-                       : survivors(paths, p.roulette);
+        paths = joined(
+            {scatter_together(together, what, NothingElse{}), scatter_singly(singly, what, NothingElse{})});
+        paths = traced
+                    ? keep(paths, [&](PathInFlight& path) { return survives(path.c, path.walk, p.roulette); })
+                    : survivors(paths, p.roulette);
     }
 }
 

@@ -32,6 +32,8 @@ void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To t
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths);
 void follow_paths(SppmIntegrator const& p, std::span<PathInFlight*> paths);
 template <class Integrator>
-concept GoesInStep = requires(Integrator const& p, std::span<PathInFlight*> paths) { follow_paths(p, paths); };
+concept GoesInStep = requires(Integrator const& p, std::span<PathInFlight*> paths) {
+    follow_paths(p, paths);
+};
 
 }  // namespace nephroid

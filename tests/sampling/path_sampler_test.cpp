@@ -263,6 +263,14 @@ TEST_CASE("a draw of many paths at once is what each draws by itself, bit for bi
                 CHECK(together[i].dimension() == alone[i].dimension());
             }
             CHECK(drawn[n] == Vec2{-1, -1});
+            std::vector<float> single(n + 1, -1.0f);
+            draw_1d(paths, 11, single.data());
+            for (std::size_t i = 0; i < n; ++i) {
+                alone[i].at(11);
+                CHECK(single[i] == alone[i].next_1d());
+                CHECK(together[i].dimension() == alone[i].dimension());
+            }
+            CHECK(single[n] == -1.0f);
         }
 }
 

@@ -72,8 +72,7 @@ inline Means measure(World const& world, Settings s, std::uint64_t passes, bool 
             return TileRenderer(job, work, film, stats).add({0, nx, 0, ny}, range);
         };
         if (job.prepares())
-            for (std::uint64_t i = 0; i < passes; ++i)
-                dropped += add(*prepare_pass(job, i, {}), {i, i + 1});
+            for (std::uint64_t i = 0; i < passes; ++i) dropped += add(*prepare_pass(job, i, {}), {i, i + 1});
         else
             dropped = add({}, {0, passes});
         CHECK(dropped == 0);

@@ -184,8 +184,10 @@ TEST_CASE("eight shadow rays at once are as dark as one by one") {
                     random.bits() % 2 == 0)
                     to.p = lamp.s.p, to.p_error = lamp.s.p_error, to.n = lamp.s.ng;
                 ShadowRay const shadow = shadow_ray(from, to);
-                if (shadow.lit) packet.set(k, shadow.ray, shadow.t_max);
-                else ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
+                if (shadow.lit)
+                    packet.set(k, shadow.ray, shadow.t_max);
+                else
+                    ++stats.rays[static_cast<std::size_t>(RayKind::Shadow)];
                 by_itself[k] = world.transmittance(from, to, single);
             }
             LaneMask const lit = world.unoccluded(packet, stats);

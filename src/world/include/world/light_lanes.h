@@ -22,9 +22,9 @@ struct LightSampleLanes {
 
 /// Rays that the light sends out (LightRay). pdf 0: none.
 struct EmittedLanes {
-    Vec3Lanes o, d;            // o: moved off the light
-    FloatLanes pdf{};          // of the direction, by solid angle
-    FloatLanes per_radiance{}; // power / radiance
+    Vec3Lanes o, d;             // o: moved off the light
+    FloatLanes pdf{};           // of the direction, by solid angle
+    FloatLanes per_radiance{};  // power / radiance
     RuntimeSpectrum const* radiance = nullptr;
 };
 

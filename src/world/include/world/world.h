@@ -208,7 +208,8 @@ class World {
     std::unique_ptr<RayCaster> caster_;
     std::unique_ptr<LightTable> lights_;
     std::unique_ptr<WorldParts> parts_;
-    std::vector<PlainMesh> plain_meshes_;  // by the records of the world's own objects; without a mesh: it is not plain
+    std::vector<PlainMesh>
+        plain_meshes_;  // by the records of the world's own objects; without a mesh: it is not plain
     Bounds3 bounds_;
     Bounds3
         emitting_;  // everything that emits, with room for rounding; all of space where something at infinity does
