@@ -63,14 +63,21 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
     auto const sum = [&](auto const& kernel) {
         if (!(sqr(g.radius) >= kLeastSquare)) return;
         float inverse = 1.0f / sqr(g.radius);
+        float plate = kPlate * g.radius;
         Side side(at);
-        auto const count = [&](std::uint32_t i, float d2) {
-            if (at.thinned > 0 && i % at.thinned == 0) return;
-            Photon const& photon = map[i];
-            if (rule.only_caustics && !photon.caustic()) return;
-            Vec3 const offset = photon.p() - at.p;
-            float const off_plane = std::abs(dot(offset, at.n));
-            if (off_plane > kPlate * g.radius) return;
+        // Copies: whatever a photon adds to might be one of these, as far as a compiler knows, and it would read them again each time.
+        Photon const* const photons = &map[0];
+        Vec3 const p = at.p;
+        Vec3 const n = at.n;
+        std::uint32_t const thinned = at.thinned;
+        bool const only_caustics = rule.only_caustics;
+        auto const count = [&, photons, p, n, thinned, only_caustics](std::uint32_t i, float d2) {
+            if (thinned > 0 && i % thinned == 0) return;
+            Photon const& photon = photons[i];
+            if (only_caustics && !photon.caustic()) return;
+            Vec3 const offset = photon.p() - p;
+            float const off_plane = std::abs(dot(offset, n));
+            if (off_plane > plate) return;
             if (!side.accepts(photon)) return;
             if (use(photon, kernel(d2 * inverse) * inverse)) {
                 ++g.photons;
@@ -94,6 +101,7 @@ Gathered for_each_photon(PhotonMap const& map, Place const& at, EstimateRule con
         g.radius = std::sqrt(most);
         if (!(most >= kLeastSquare)) return;  // k photons at one point
         inverse = 1.0f / most;
+        plate = kPlate * g.radius;
         for (FoundPhoton const& f : nearest.found)
             if (f.distance2 < most) count(f.index, f.distance2);
     };
@@ -170,12 +178,16 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
     Place const at{v.hit.s.p, facing_normal(walk, v), v.is.spreads_through};
     bool const same_normals = v.hit.s.ns == v.hit.s.ng;
     auto const* diffuse = std::get_if<DiffuseBsdf>(&v.bsdf);
-    Gathered const g = for_each_photon(map, at, rule, *c.nearest, [&](Photon const& photon, float weight) {
-        if (photon.bounces() + 1 + walk.vertex > most_bounces) return false;
+    bool const by_power_alone = diffuse && same_normals;
+    std::uint32_t const before = walk.vertex + 1;
+    bool const hero_only = walk.hero_only;
+    Spectrum sum;
+    auto const use = [&, by_power_alone, before, hero_only, most_bounces](Photon const& photon, float weight) {
+        if (photon.bounces() + before > most_bounces) return false;
         // Both stand for all four lanes by the hero's: once is enough.
-        if (walk.hero_only && photon.hero_only()) weight *= 0.25f;
-        if (diffuse && same_normals) {
-            e.radiance += photon.power() * weight;
+        if (hero_only && photon.hero_only()) weight *= 0.25f;
+        if (by_power_alone) {
+            sum += photon.power() * weight;
             return true;
         }
         Vec3 const wi = photon.wi();
@@ -189,11 +201,11 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
             if (!(cosine > 0.0f)) return false;
             weight *= abs_dot(wi, v.hit.s.ns) / cosine;
         }
-        e.radiance +=
-            evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
+        sum += evaluate(v.bsdf, v.wo_local, v.frame.to_local(wi), Mode::Radiance) * photon.power() * weight;
         return true;
-    });
-    if (diffuse && same_normals) e.radiance *= diffuse->reflectance * kInvPi;
+    };
+    Gathered const g = for_each_photon(map, at, rule, *c.nearest, use);
+    e.radiance = by_power_alone ? sum * (diffuse->reflectance * kInvPi) : sum;
     e.radiance *= edge_factor(c.world, at, rule, g, c.stats);
     e.radius = g.radius;
     e.photons = g.photons;
