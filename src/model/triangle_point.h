@@ -3,7 +3,8 @@
 #pragma once
 
 #include "math/float4.h"
-#include "math/transform.h"
+
+#include <cmath>
 
 namespace nephroid {
 

@@ -182,7 +182,8 @@ Estimate reflected(PathContext& c, Walk const& walk, Vertex const& v, PhotonMap 
     std::uint32_t const before = walk.vertex + 1;
     bool const hero_only = walk.hero_only;
     Spectrum sum;
-    auto const use = [&, by_power_alone, before, hero_only, most_bounces](Photon const& photon, float weight) {
+    auto const use = [&, by_power_alone, before, hero_only, most_bounces](Photon const& photon,
+                                                                          float weight) {
         if (photon.bounces() + before > most_bounces) return false;
         // Both stand for all four lanes by the hero's: once is enough.
         if (hero_only && photon.hero_only()) weight *= 0.25f;

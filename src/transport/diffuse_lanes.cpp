@@ -2,7 +2,10 @@
 
 #include "shadow_queue.h"
 #include "world/light_lanes.h"
+#include "world/ray_packet.h"
 
+#include <array>
+#include <cmath>
 #include <variant>
 
 namespace nephroid {
@@ -10,12 +13,6 @@ namespace nephroid {
 namespace {
 
 Spectrum reflectance(PathInFlight const& path) { return std::get_if<DiffuseBsdf>(&path.v.bsdf)->reflectance; }
-/// cos(theta) / pi where both directions are on one side, else 0.
-float density(float cos_wo, float cos_wi) {
-    float const pdf = cosine_hemisphere_pdf(std::abs(cos_wi));
-    return cos_wo * cos_wi > 0.0f ? pdf : 0.0f;
-}
-
 /// For each lane what is left of f Li |cos| / pdf when the colours are taken out, and the ray on which it comes.
 struct ArrivingLanes {
     RayPacket rays;
@@ -76,7 +73,7 @@ void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
     ArrivingLanes arriving;
     for (std::size_t i = 0; i < kLanes; ++i) {
         float const cos_wi = dot(light.wi[i], s_.ns[i]);
-        float const pdf = density(cos_wo_[i], cos_wi);
+        float const pdf = diffuse_pdf(cos_wo_[i], cos_wi);
         float const weight = mis ? power_heuristic(light.pdf[i], pdf) : 1.0f;
         arriving.factor[i] = std::abs(cos_wi) * weight / light.pdf[i];
         arriving.arrives[i] = (light.pdf[i] > 0.0f) & (cos_wo_[i] * cos_wi > 0.0f);
@@ -106,7 +103,7 @@ LaneMask DiffuseLanes::scatter(Vec2 const* u_direction) const {
     for (std::size_t i = 0; i < kLanes; ++i) {
         Vec3 local = square_to_cosine_hemisphere(u[i]);
         local.z = cos_wo_[i] < 0.0f ? -local.z : local.z;
-        leaving.pdf[i] = density(cos_wo_[i], local.z);
+        leaving.pdf[i] = diffuse_pdf(cos_wo_[i], local.z);
         Vec3 const wi = normalize(frame_from_z(s_.ns[i]).from_local(local));
         leaving.factor[i] =
             std::abs(local.z) / leaving.pdf[i] * shading_normal_scale(mode, -d_[i], wi, s_.ns[i], s_.ng[i]);
@@ -119,7 +116,8 @@ LaneMask DiffuseLanes::scatter(Vec2 const* u_direction) const {
         PathInFlight& path = *paths_[i];
         Walk& walk = path.walk;
         // f |cos| / pdf (PBRT 4th ed., eq. 13.8)
-        if (!weigh(path.c, walk, reflectance(path) * kInvPi * leaving.factor[i])) continue;
+        walk.beta *= reflectance(path) * kInvPi * leaving.factor[i];
+        if (!carries_on(path.c, walk)) continue;
         walk.specular = false;
         walk.pdf = leaving.pdf[i];
         walk.from = {s_.p[i], facing(i), false};

@@ -2,9 +2,9 @@
 // paths meet. What is done is what walk.cpp does to one path, to the same bits: loops over lanes call the functions that one path uses.
 #pragma once
 
+#include "math/lanes.h"
 #include "model/triangle_lanes.h"
 #include "path_in_flight.h"
-#include "world/ray_packet.h"
 
 #include <span>
 

@@ -31,9 +31,10 @@ bool prepare(PathInFlight& path, bool in_lanes) {
         v.is = {};
         return true;
     }
-    v.in_lanes = in_lanes && prepare_in_lanes(c, v);
+    bool const records = aov && walk.vertex == 0;
+    v.in_lanes = in_lanes && !records && prepare_plain(c, v);
     bool const scatters = v.in_lanes || prepare(c, walk, v);
-    if (aov) record_first_hit(c, walk, scatters, v, aov);
+    if (records) record_first_hit(c, walk, scatters, v, aov);
     return scatters;
 }
 
@@ -44,8 +45,9 @@ Split split(Paths paths) {
 }
 
 Paths joined(Split const& split) {
-    auto const end = std::copy(split.singly.begin(), split.singly.end(), split.together.end());
-    return {split.together.begin(), end};
+    auto const end = split.together.end();
+    if (split.singly.begin() == end) return {split.together.begin(), split.singly.end()};
+    return {split.together.begin(), std::copy(split.singly.begin(), split.singly.end(), end)};
 }
 
 void complete_hits(Paths paths) {

@@ -6,7 +6,10 @@
 #include "path_in_flight.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <span>
+#include <type_traits>
 
 namespace nephroid {
 

@@ -30,23 +30,27 @@ Paths LightBatch::emit(std::size_t n) {
             auto const ray = send(c, shoot_.aim, u, &told(path).light);
             return ray ? begin(path, ray->start(), ray->power()) : ends(path, &PhotonCounts::dark);
         });
-    // Eight at a time.
-    EmittedLanes emitted;
-    return keep(all, [&](PathInFlight& path) {
-        std::size_t const lane = path.c.path % kLanes;
-        if (lane == 0) {
-            Vec2Lanes at;
-            Vec2Lanes along;
-            for (std::size_t i = 0; i < std::min(kLanes, n - path.c.path); ++i) {
-                at.set(i, point[path.c.path + i]);
-                along.set(i, direction[path.c.path + i]);
-            }
-            world.emit_lone_flat_light(at, along, emitted);
+    std::size_t going = 0;
+    for (std::size_t first = 0; first < n; first += kLanes) {
+        std::size_t const size = std::min(kLanes, n - first);
+        Vec2Lanes at;
+        Vec2Lanes along;
+        for (std::size_t i = 0; i < size; ++i) {
+            at.set(i, point[first + i]);
+            along.set(i, direction[first + i]);
         }
-        if (!(emitted.pdf[lane] > 0.0f)) return ends(path, &PhotonCounts::dark);
-        return begin(path, {emitted.o[lane], emitted.d[lane]},
-                     emitted.radiance->sample(path.c.lambda) * emitted.per_radiance[lane]);
-    });
+        EmittedLanes emitted;
+        world.emit_lone_flat_light(at, along, emitted);
+        for (std::size_t i = 0; i < size; ++i) {
+            PathInFlight& path = paths_[first + i];
+            if (!(emitted.pdf[i] > 0.0f))
+                ends(path, &PhotonCounts::dark);
+            else if (begin(path, {emitted.o[i], emitted.d[i]},
+                           emitted.radiance->sample(path.c.lambda) * emitted.per_radiance[i]))
+                going_[going++] = &path;
+        }
+    }
+    return {going_.data(), going};
 }
 
 bool LightBatch::arrive(PathInFlight& path, bool in_lanes) {
@@ -67,9 +71,7 @@ void LightBatch::land(PathInFlight const& path) {
 Paths LightBatch::survivors(Paths paths) {
     if (paths.empty()) return paths;
     std::array<float, kMostInStep> drawn;
-    std::array<PathSampler*, kMostInStep> samplers;
-    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
-    draw_1d({samplers.data(), paths.size()}, roulette_dimension(paths.front()->walk), drawn.data());
+    draw_1d(paths, roulette_dimension(paths.front()->walk), drawn.data());
     float const* u = drawn.data();
     return keep(paths, [&](PathInFlight& path) {
         float const q = power_survival(path.walk, before_[path.c.path]);

@@ -1,4 +1,4 @@
-// Light paths of a shot in step (docs/decisions/0010-paths-in-step.md). Each is follow_light()'s, which is their definition.
+// Light paths of a shot in step (docs/decisions/0011-vertices-in-lanes.md). Each is follow_light()'s, which is their definition.
 #pragma once
 
 #include "in_step.h"

@@ -9,19 +9,19 @@ namespace {
 Paths survivors(Paths paths, Roulette const& roulette) {
     std::array<float, kMostInStep> chance;
     std::array<float, kMostInStep> drawn;
-    std::array<PathSampler*, kMostInStep> samplers;
+    std::array<PathInFlight*, kMostInStep> asking;
     std::size_t n = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         chance[i] = survival(paths[i]->walk, roulette);
-        if (chance[i] < 1.0f) samplers[n++] = &paths[i]->c.sampler;
+        if (takes_chance(chance[i])) asking[n++] = paths[i];
     }
     if (n == 0) return paths;
-    draw_1d({samplers.data(), n}, roulette_dimension(paths.front()->walk), drawn.data());
+    draw_1d(Paths{asking.data(), n}, roulette_dimension(paths.front()->walk), drawn.data());
     float const* u = drawn.data();
     float const* q = chance.data();
     return keep(paths, [&](PathInFlight& path) {
         float const survival = *q++;
-        if (!(survival < 1.0f)) return true;
+        if (!takes_chance(survival)) return true;
         if (*u++ >= survival) return false;
         path.walk.beta /= survival;
         return true;

@@ -27,6 +27,13 @@ void draw_2d(std::span<PathInFlight* const> paths, std::uint32_t dimension, To t
     for (std::size_t i = 0; i < paths.size(); ++i) to(*paths[i]) = drawn[i];
 }
 
+/// Draws the number of one dimension for every path.
+inline void draw_1d(std::span<PathInFlight* const> paths, std::uint32_t dimension, float* drawn) {
+    std::array<PathSampler*, kMostInStep> samplers;
+    for (std::size_t i = 0; i < paths.size(); ++i) samplers[i] = &paths[i]->c.sampler;
+    draw_1d(std::span<PathSampler* const>{samplers.data(), paths.size()}, dimension, drawn);
+}
+
 /// Radiance along the camera rays of `paths`, which is in their `seen` (and c.shadows) in the end. All are at their first ray, whose hit is
 /// in `met`. The list is used up.
 void follow_paths(PathIntegrator const& p, std::span<PathInFlight*> paths);

@@ -8,7 +8,6 @@
 #include "walk.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace nephroid {
 

@@ -35,7 +35,6 @@ float share_kept(PathContext const& c, Vertex const& v) {
 
 Shoot::Shoot(RenderJob const& j, PhotonPlan const& p, ShotKind k, std::uint64_t pass, std::uint64_t n)
     : job(j),
-      plan(p),
       kind(k),
       lambda(j.pass_wavelengths(pass)),
       first(pass * n),

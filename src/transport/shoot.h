@@ -10,7 +10,6 @@ namespace nephroid {
 /// What all paths of a shot have in common.
 struct Shoot {
     RenderJob const& job;
-    PhotonPlan const& plan;
     ShotKind kind;
     Wavelengths lambda;
     std::uint64_t first, paths;  // numbers of the pass's block of the sequence

@@ -185,7 +185,7 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 
 bool prepare(PathContext& c, Walk& walk, Vertex& v) {
     if (!v.material.valid()) return false;
-    if (prepare_in_lanes(c, v)) {
+    if (prepare_plain(c, v)) {
         // Most of what paths meet.
         orient(walk, v);
     } else {
@@ -274,13 +274,11 @@ namespace {
 /// The body of follow(), in line where most paths go on.
 [[gnu::always_inline]] inline bool go_on(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s) {
     Vec3 const wi = normalize(v.frame.from_local(s.wi));
-    bool const goes_on =
-        weigh(c, walk,
-              s.f * (abs_cos_theta(s.wi) / s.pdf *
-                     shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng)));
+    walk.beta *= s.f * (abs_cos_theta(s.wi) / s.pdf *
+                        shading_normal_scale(walk.mode, -walk.ray.d, wi, v.hit.s.ns, v.hit.s.ng));
     if (s.keep_hero) keep_hero(walk);
     if (c.trace) c.trace->scattered(c, walk, v, s, wi);
-    if (!goes_on) return false;
+    if (!carries_on(c, walk)) return false;
     if (s.transmitted) walk.eta_scale *= sqr(s.eta);
     walk.specular = s.delta;
     walk.pdf = s.proportional ? pdf(v.bsdf, v.wo_local, s.wi, c.hemisphere) : s.pdf;
@@ -315,7 +313,7 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v) {
 
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette) {
     float const q = survival(walk, roulette);
-    if (q >= 1.0f) return true;
+    if (!takes_chance(q)) return true;
     c.sampler.at(roulette_dimension(walk));
     bool const dies = c.sampler.next_1d() >= q;
     if (c.trace) c.trace->chance(q, dies);

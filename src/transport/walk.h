@@ -104,7 +104,7 @@ struct Walk {
 };
 
 /// How many paths go in step at most.
-inline constexpr std::size_t kMostInStep = 128;
+inline constexpr std::size_t kMostInStep = 128;  // a multiple of kLanes
 
 /// Numbers of a vertex that were drawn ahead, together with those of other paths.
 struct Drawn {
@@ -158,8 +158,8 @@ bool advance(PathContext& c, Walk& walk, EmissionWeight weight, Vertex& v, Spect
 
 /// Scattering at v.hit; false when there is none (no material). May end the path's other wavelengths.
 bool prepare(PathContext& c, Walk& walk, Vertex& v);
-/// The same where a diffuse material of one colour may scatter in lanes; false, and nothing done, elsewhere.
-inline bool prepare_in_lanes(PathContext const& c, Vertex& v) {
+/// The same, but for frame and wo_local, of a diffuse material of one colour on the surface as it is; false, and nothing done, elsewhere.
+inline bool prepare_plain(PathContext const& c, Vertex& v) {
     if (!v.material.valid()) return false;
     MaterialData const& data = c.world.assets().data(v.material);
     if (!data.plain) return false;
@@ -184,9 +184,8 @@ bool scatter(PathContext& c, Walk& walk, Vertex const& v);
 /// The same with a given sample, as of a branch of Whitted's tree.
 bool follow(PathContext& c, Walk& walk, Vertex const& v, BsdfSample const& s);
 
-/// beta times the weight of a direction. False when the path ends: there is nothing left, or no number.
-inline bool weigh(PathContext& c, Walk& walk, Spectrum weight) {
-    walk.beta *= weight;
+/// After beta has been multiplied by the weight of a direction: false when the path ends, for there is nothing left, or no number.
+inline bool carries_on(PathContext& c, Walk const& walk) {
     if (walk.beta.is_black()) return false;
     if (walk.beta.is_finite()) return true;
     c.tainted = true;
@@ -195,13 +194,15 @@ inline bool weigh(PathContext& c, Walk& walk, Spectrum weight) {
 
 /// Russian roulette (Arvo & Kirk 1990): ends the walk, which has just moved on, or makes up for those that were ended.
 bool survives(PathContext& c, Walk& walk, Roulette const& roulette);
-/// The probability with which it does not end; where that is 1 or more, nothing is drawn.
+/// The probability with which it does not end.
 inline float survival(Walk const& walk, Roulette const& roulette) {
     if (roulette.kind == RouletteKind::None) return 1.0f;
     if (roulette.kind == RouletteKind::Fixed) return roulette.alpha;
     if (walk.vertex == 1) return 1.0f;
     return walk.beta.max() * walk.eta_scale * (walk.hero_only ? 0.25f : 1.0f);
 }
+/// Whether a number is drawn at all.
+inline bool takes_chance(float survival) { return !(survival >= 1.0f); }
 /// The dimension of its number: of the vertex that the walk has left.
 inline std::uint32_t roulette_dimension(Walk const& walk) {
     return dimension::of(walk.vertex - 1, dimension::kRoulette);

@@ -45,7 +45,7 @@ float density_from_surface(EmissionSample const& e, BoundingSphere const* ball, 
     if (ball)
         if (auto const cone = cone_of(*ball, e.ray.o, kNearCos))
             return meets(*ball, e.ray.o, e.ray.d) ? uniform_cone_pdf(cone->one_minus_cos) : 0.0f;
-    return lambert_density(e.n, e.ray.d, two_sided);
+    return lambert_density(dot(e.n, e.ray.d), two_sided);
 }
 
 }  // namespace

@@ -60,13 +60,13 @@ struct FlatEmitter {
           has_view(view != FlatView::Far) {}
 
     void put(Vec2 st, LightSample& s) const {
-        s.p = e.corner + st.x * e.edge1 + st.y * e.edge2;
+        s.p = flat_point(e, st);
         s.p_error = e.p_error;
         s.n = e.normal;
         if (picture) s.uv = picture->uv + st.x * picture->duv1 + st.y * picture->duv2;
     }
     float draw_by_area(Vec2 square, LightSample& s) const {
-        put(e.shape == LightShape::Triangle ? square_to_triangle(square) : square, s);
+        put(area_coordinates(e, square), s);
         return e.area_pdf;
     }
     [[nodiscard]] Vec2 square(Vec3 p) const {

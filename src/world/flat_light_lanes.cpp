@@ -12,28 +12,20 @@ namespace nephroid {
 
 namespace {
 
-/// The point of a square by area (FlatEmitter::draw_by_area).
-[[gnu::always_inline]] inline Vec3 point_of(LightEntry const& e, bool triangle, Vec2 square) {
-    Vec2 const half = square_to_triangle(square);
-    Vec2 const st{triangle ? half.x : square.x, triangle ? half.y : square.y};
-    return e.corner + st.x * e.edge1 + st.y * e.edge2;
-}
-
 /// Those that see it at an angle where it is drawn by area, bent or not; of the others the point has no meaning.
 struct DrawnByArea {
     LightSampleLanes sample;
     std::array<std::uint32_t, kLanes> near;
 };
 
-void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restrict to, bool by_solid_angle,
+void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restrict to, bool by_view,
                   Vec2Lanes const& __restrict u, DrawnByArea& __restrict drawn) {
-    bool const triangle = e.shape == LightShape::Triangle;
     float const last = last_corner(e);
     float const area_pdf = e.area_pdf;
     for (std::size_t i = 0; i < kLanes; ++i) {
         Receiver const r{to.p[i], to.n[i], false};
         FlatView const seen = view_of(e, r);
-        FlatView const view = by_solid_angle ? seen : FlatView::Far;
+        FlatView const view = by_view ? seen : FlatView::Far;
         SeenCorner<float> const a(e, r, 0, 0);
         SeenCorner<float> const b(e, r, 1, 0);
         SeenCorner<float> const c(e, r, 0, 1);
@@ -45,7 +37,7 @@ void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restric
         bool const between = view == FlatView::Between;
         float const square_pdf = between ? bilinear_pdf(bent, weights.data()) : 1.0f;
         Vec2 const square{between ? bent.x : u.x[i], between ? bent.y : u.y[i]};
-        Vec3 const p = point_of(e, triangle, square);
+        Vec3 const p = area_point(e, square);
         Vec3 const way = p - r.p;
         float const r2 = length_squared(way);
         Vec3 const wi = way * (1.0f / std::sqrt(r2));
@@ -62,10 +54,9 @@ void draw_by_area(LightEntry const& __restrict e, ReceiverLanes const& __restric
 void emit_by_area(LightEntry const& __restrict e, bool two_sided, float choice,
                   Vec2Lanes const& __restrict u_position, Vec2Lanes const& __restrict u_direction,
                   EmittedLanes& __restrict emitted) {
-    bool const triangle = e.shape == LightShape::Triangle;
     float const area_pdf = e.area_pdf;
     for (std::size_t i = 0; i < kLanes; ++i) {
-        Vec3 const p = point_of(e, triangle, u_position[i]);
+        Vec3 const p = area_point(e, u_position[i]);
         LambertRay const ray(e.normal, two_sided, u_direction[i]);
         emitted.o.set(i, offset_of_lane(p, e.p_error, ray.n, ray.d));
         emitted.d.set(i, ray.d);

@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-inline float lambert_density(Vec3 n, Vec3 w, bool two_sided) {
-    return cosine_hemisphere_pdf(dot(n, w)) * (two_sided ? 0.5f : 1.0f);
+inline float lambert_density(float cosine, bool two_sided) {
+    return cosine_hemisphere_pdf(cosine) * (two_sided ? 0.5f : 1.0f);
 }
 
 struct LambertRay {
@@ -21,7 +21,7 @@ struct LambertRay {
         u.x = min(sides * (back ? u.x - 0.5f : u.x), kOneMinusEpsilon);
         n = normal * (back ? -1.0f : 1.0f);
         d = normalize(frame_from_z(n).from_local(square_to_cosine_hemisphere(u)));
-        pdf = lambert_density(n, d, two_sided);
+        pdf = lambert_density(dot(n, d), two_sided);
     }
 };
 

@@ -120,8 +120,7 @@ class LightTable {
     [[nodiscard]] bool lone_flat() const {
         if (entries.size() != 1 || by_power.empty()) return false;
         LightEntry const& e = entries.front();
-        return e.flat() && e.picture == LightEntry::kNone && emitters[e.emitter].even &&
-               !emitters[e.emitter].unseen;
+        return e.flat() && e.area_pdf > 0.0f && emitters[e.emitter].even;
     }
     [[nodiscard]] std::size_t bytes() const;
 

@@ -34,7 +34,7 @@ void analytic_surface(ObjectRecord const& r, ShapeHit const& hit, Vec3 local, bo
     match(
         r.object->shape, [](TriangleMesh const&) {}, [](LoopSubdivision const&) {},
         [&](auto const& shape) {
-            if constexpr (requires { bare_surface(shape, local); })
+            if constexpr (std::is_same_v<decltype(shape), Sphere const&>)
                 s = coordinates ? surface(shape, hit, local) : bare_surface(shape, local);
             else
                 s = surface(shape, hit, local);

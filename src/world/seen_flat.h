@@ -2,6 +2,7 @@
 #pragma once
 
 #include "light_table.h"
+#include "sampling/warp.h"
 
 #include <array>
 
@@ -18,6 +19,17 @@ inline FlatView view_of(LightEntry const& e, Receiver const& to) {
     bool const near = (e.size2 > d2) | (along > 0.5f * d2);
     bool const between = (e.size2 > 0.3f * d2) | (along > 0.35f * d2);
     return near ? FlatView::Near : between ? FlatView::Between : FlatView::Far;
+}
+
+/// Where a number of the square is by area, in (s, t), and the point there. Without a branch, so that lanes may use it.
+inline Vec2 area_coordinates(LightEntry const& e, Vec2 square) {
+    Vec2 const half = square_to_triangle(square);
+    bool const triangle = e.shape == LightShape::Triangle;
+    return {triangle ? half.x : square.x, triangle ? half.y : square.y};
+}
+inline Vec3 flat_point(LightEntry const& e, Vec2 st) { return e.corner + st.x * e.edge1 + st.y * e.edge2; }
+inline Vec3 area_point(LightEntry const& e, Vec2 square) {
+    return flat_point(e, area_coordinates(e, square));
 }
 
 /// (s, t) of a point of the plane: corner + s edge1 + t edge2.

@@ -1,6 +1,7 @@
 // What the world says about its lights.
 #include "emission.h"
 #include "emitter_sampling.h"
+#include "lambert_ray.h"
 #include "light_table.h"
 #include "sampling/warp.h"
 #include "scene/match.h"
@@ -138,7 +139,7 @@ EmissionDensity World::emission_density(SurfaceHit const& from, Vec3 w) const {
     float const cosine = two_sided ? abs_dot(from.s.ng, w) : dot(from.s.ng, w);
     d.position =
         lights_->by_power.pmf(entry) * emitter_area_pdf(*lights_, *parts_, lights_->entries[entry], from);
-    d.direction = cosine_hemisphere_pdf(cosine) * (two_sided ? 0.5f : 1.0f);
+    d.direction = lambert_density(cosine, two_sided);
     return d;
 }
 

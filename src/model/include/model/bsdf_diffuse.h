@@ -14,10 +14,14 @@ inline BsdfTraits traits(DiffuseBsdf const&) { return {}; }
 inline Spectrum evaluate(DiffuseBsdf const& b, Vec3 wo, Vec3 wi, Mode) {
     return same_hemisphere(wo, wi) ? b.reflectance * kInvPi : Spectrum{};
 }
+/// By the cosines of both directions, without a branch: lanes use it as well.
+inline float diffuse_pdf(float cos_wo, float cos_wi) {
+    float const density = cosine_hemisphere_pdf(std::abs(cos_wi));
+    return cos_wo * cos_wi > 0.0f ? density : 0.0f;
+}
 inline float pdf(DiffuseBsdf const&, Vec3 wo, Vec3 wi, HemisphereSampling how) {
-    if (!same_hemisphere(wo, wi)) return 0.0f;
-    return how == HemisphereSampling::Cosine ? cosine_hemisphere_pdf(abs_cos_theta(wi))
-                                             : kUniformHemispherePdf;
+    if (how == HemisphereSampling::Cosine) return diffuse_pdf(cos_theta(wo), cos_theta(wi));
+    return same_hemisphere(wo, wi) ? kUniformHemispherePdf : 0.0f;
 }
 std::optional<BsdfSample> sample(DiffuseBsdf const& b, Vec3 wo, float uc, Vec2 u, Mode mode,
                                  HemisphereSampling how);

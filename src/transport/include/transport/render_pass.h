@@ -73,7 +73,9 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
 /// What one thread needs to render tiles, one after the other. `work` is of the passes; where the job prepares passes there is but one.
 class TileRenderer {
   public:
+    /// All of them are to outlive it.
     TileRenderer(RenderJob const& job, PassWork const& work, Film& film, RayStats& stats);
+    TileRenderer(RenderJob const&, PassWork&&, Film&, RayStats&) = delete;
     ~TileRenderer();
 
     /// Adds the samples of `passes` (ascending) to the pixels of `tile`; returns how many were not finite and were dropped. Does

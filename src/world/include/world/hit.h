@@ -53,7 +53,7 @@ struct RecordedRay {
     int lane = -1;  // in its packet, where it was traced in one
 };
 
-/// Counters of one worker; added up when a tile is done, so that threads share nothing.
+/// Counters of one worker; added up in the end, so that threads share nothing.
 struct RayStats {
     std::array<std::uint64_t, 3> rays{};  // by RayKind
     std::uint64_t hits = 0;
