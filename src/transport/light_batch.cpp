@@ -30,6 +30,7 @@ Paths LightBatch::emit(std::size_t n) {
             auto const ray = send(c, shoot_.aim, u, &told(path).light);
             return ray ? begin(path, ray->start(), ray->power()) : ends(path, &PhotonCounts::dark);
         });
+    // Of the only light, which has the number 0, eight at a time.
     std::size_t going = 0;
     for (std::size_t first = 0; first < n; first += kLanes) {
         std::size_t const size = std::min(kLanes, n - first);

@@ -40,43 +40,8 @@ struct Shoot {
     }
 };
 
-/// How a path ended: a member of PhotonCounts.
-using End = std::uint64_t PhotonCounts::*;
-
 /// The photon that a path leaves at a vertex.
 PhotonRecord photon_of(PathContext const& c, Walk const& walk, Vertex const& v, std::uint32_t light,
                        bool caustic);
-
-/// Path `i` of a shot, from its light to its end. `visit` is told where it goes: begins(ray), meets(point), lands(photon),
-/// leaves(ray).
-template <class Visit>
-End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
-    PathSampler sampler = s.sampler(i);
-    PathContext c{s.job, s.job.world(), s.lambda, sampler, stats};
-    auto start = emit(c, s.aim, s.paths, &light);
-    if (!start) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark;
-    Walk& walk = start->walk;
-    visit.begins(walk.ray);
-    Vertex v;
-    Spectrum unseen;
-    for (;;) {
-        if (!advance(c, walk, EmissionWeight::None, v, unseen)) {
-            visit.leaves(walk.ray);
-            return &PhotonCounts::escaped;
-        }
-        visit.meets(v.hit.s.p);
-        if (!walk.beta.is_finite()) return &PhotonCounts::broken;
-        // Light that an absorbing medium has swallowed to the last float is no photon.
-        if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
-        bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(c, walk, v, light, caustic));
-        if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
-        Spectrum const before = walk.beta;
-        if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;
-        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
-        if (s.kind == ShotKind::Caustic && !walk.path_class.all_specular()) return &PhotonCounts::landed;
-        if (!survives_with_power(c, walk, before)) return &PhotonCounts::absorbed;
-    }
-}
 
 }  // namespace nephroid

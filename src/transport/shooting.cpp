@@ -28,6 +28,47 @@ Vec3 leaving_point(Bounds3 const& box, Ray const& ray) {
     return ray.o + t * ray.d;
 }
 
+/// Writes down where a path goes.
+struct Visit {
+    TracedPath traced;
+    Bounds3 bounds;
+
+    void begins(Ray const& ray) { traced.vertices.push_back(ray.o); }
+    void meets(Vec3 p) { traced.vertices.push_back(p); }
+    void leaves(Ray const& ray) { traced.vertices.push_back(leaving_point(bounds, ray)); }
+    void lands(PhotonRecord const& r) { traced.photons.push_back(r); }
+};
+
+/// Path `i` of a shot, from its light to its end. `visit` is told where it goes. This is what LightBatch does to many.
+End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
+    PathSampler sampler = s.sampler(i);
+    PathContext c{s.job, s.job.world(), s.lambda, sampler, stats};
+    auto start = emit(c, s.aim, s.paths, &light);
+    if (!start) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::dark;
+    Walk& walk = start->walk;
+    visit.begins(walk.ray);
+    Vertex v;
+    Spectrum unseen;
+    for (;;) {
+        if (!advance(c, walk, EmissionWeight::None, v, unseen)) {
+            visit.leaves(walk.ray);
+            return &PhotonCounts::escaped;
+        }
+        visit.meets(v.hit.s.p);
+        if (!walk.beta.is_finite()) return &PhotonCounts::broken;
+        // Light that an absorbing medium has swallowed to the last float is no photon.
+        if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
+        bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
+        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(c, walk, v, light, caustic));
+        if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
+        Spectrum const before = walk.beta;
+        if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;
+        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
+        if (s.kind == ShotKind::Caustic && !walk.path_class.all_specular()) return &PhotonCounts::landed;
+        if (!survives_with_power(c, walk, before)) return &PhotonCounts::absorbed;
+    }
+}
+
 }  // namespace
 
 std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
@@ -98,20 +139,12 @@ double expected_photons(RenderJob const& job) {
 
 TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
                             std::uint64_t paths) {
-    struct Visit {
-        TracedPath traced;
-        Bounds3 bounds;
-
-        void begins(Ray const& ray) { traced.vertices.push_back(ray.o); }
-        void meets(Vec3 p) { traced.vertices.push_back(p); }
-        void leaves(Ray const& ray) { traced.vertices.push_back(leaving_point(bounds, ray)); }
-        void lands(PhotonRecord const& r) { traced.photons.push_back(r); }
-    };
     Visit visit{{}, job.world().bounds()};
     PhotonPlan const* plan = job.photon_plan();
     if (!plan || paths == 0 || !(job.world().total_power() > 0.0f)) return visit.traced;
     RayStats stats;
-    follow_light(Shoot(job, *plan, kind, pass, paths), path, visit.traced.light, stats, visit);
+    visit.traced.end =
+        follow_light(Shoot(job, *plan, kind, pass, paths), path, visit.traced.light, stats, visit);
     return visit.traced;
 }
 

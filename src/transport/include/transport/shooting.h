@@ -38,11 +38,15 @@ double expected_photons(RenderJob const& job);
 /// How many paths a pass of the job shoots into the global or the caustic map: 0 where it makes none.
 std::uint64_t paths_of_pass(RenderJob const& job, ShotKind kind);
 
+/// How a path ended: a member of PhotonCounts.
+using End = std::uint64_t PhotonCounts::*;
+
 /// One path of a shot, vertex by vertex, as pictures and files show them.
 struct TracedPath {
     std::uint32_t light = 0;
     std::vector<Vec3> vertices;         // from the light on
     std::vector<PhotonRecord> photons;  // what it left
+    End end = &PhotonCounts::dark;
 };
 TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
                             std::uint64_t paths);
