@@ -54,8 +54,9 @@ PathSegment segment_of(TracedPath const& path, std::size_t first_vertex) {
     if (first_vertex == 0) return PathSegment::Direct;
     // Photons lie where a surface is neither mirror nor glass.
     for (std::size_t k = 1; k <= first_vertex; ++k)
-        for (PhotonRecord const& photon : path.photons)
-            if (photon.p == path.vertices[k]) return PathSegment::Indirect;
+        for (auto const* photons : {&path.photons, &path.further})
+            for (PhotonRecord const& photon : *photons)
+                if (photon.p == path.vertices[k]) return PathSegment::Indirect;
     return PathSegment::Caustic;
 }
 

@@ -20,6 +20,7 @@ constexpr Fate kFates[] = {{"escaped", "left the scene", &PhotonCounts::escaped}
                            {"absorbed", "absorbed", &PhotonCounts::absorbed},
                            {"too_long", "too long", &PhotonCounts::too_long},
                            {"landed", "landed (caustic)", &PhotonCounts::landed},
+                           {"elsewhere", "the other map's", &PhotonCounts::elsewhere},
                            {"dark", "sent nothing", &PhotonCounts::dark},
                            {"broken", "not a number", &PhotonCounts::broken}};
 /// The table names so many lights, those that sent the most paths.

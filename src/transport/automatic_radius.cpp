@@ -112,28 +112,37 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
     Seen const seen = look_around(job);
     // No finer than what a pixel shows.
     float const least = median(seen.footprints);
-    auto const radius = [&](ShotKind kind, std::uint64_t paths) {
-        std::uint64_t const pilot = std::min(paths, kPilotPaths);
+    // A share of the paths of a pass, as many of either kind as there are in it.
+    std::uint64_t const most = std::max(plan.global_paths, plan.caustic_paths);
+    double const share = std::min(
+        1.0, static_cast<double>(kPilotPaths) / static_cast<double>(std::max<std::uint64_t>(1, most)));
+    auto const pilot = [&](ShotKind kind, std::uint64_t paths) {
+        auto const n = static_cast<std::uint64_t>(std::llround(static_cast<double>(paths) * share));
+        return std::move(*shoot(job, kind, kPilotPass, n, {}));
+    };
+    auto const radius = [&](std::vector<Photon> photons, bool caustic) {
         float r = 0;
-        if (pilot > 0) {
-            PhotonMap const map(shoot(job, kind, kPilotPass, pilot, {})->photons);
-            auto const k = static_cast<std::uint32_t>(
-                std::min<std::size_t>(kNeighbours, std::max<std::size_t>(1, map.size())));
-            float const more = static_cast<float>(paths) / static_cast<float>(pilot);
+        if (!photons.empty()) {
+            PhotonMap const map(std::move(photons));
+            auto const k = static_cast<std::uint32_t>(std::min<std::size_t>(kNeighbours, map.size()));
             // A photon is not its own neighbour.
-            std::uint32_t const self = kind == ShotKind::Caustic ? 1 : 0;
-            r = spacing(map, kind == ShotKind::Caustic ? where_photons_are(job, map) : seen.places,
-                        k + self) *
-                std::sqrt(wanted / (static_cast<float>(k) * more));
+            std::uint32_t const self = caustic ? 1 : 0;
+            r = spacing(map, caustic ? where_photons_are(job, map) : seen.places, k + self) *
+                std::sqrt(wanted * static_cast<float>(share) / static_cast<float>(k));
         }
         if (!(r > 0.0f && std::isfinite(r))) r = std::isfinite(size) && size > 0 ? 0.01f * size : 1.0f;
         return max(r, least) * room;
     };
-    ShotKind const kind = global_shot(job.settings().integrator);
-    if (!(plan.global_radius > 0)) plan.global_radius = radius(kind, plan.global_paths);
+    Shot caustic = pilot(ShotKind::Caustic, plan.caustic_paths);
+    if (!(plan.global_radius > 0)) {
+        std::vector<Photon> photons = pilot(plan.global_kind, plan.global_paths).photons;
+        photons.insert(photons.end(), caustic.further.begin(), caustic.further.end());
+        if (plan.caustics_too) photons.insert(photons.end(), caustic.photons.begin(), caustic.photons.end());
+        plan.global_radius = radius(std::move(photons), false);
+    }
     if (!(plan.caustic_radius > 0))
         plan.caustic_radius =
-            plan.caustic_paths > 0 ? radius(ShotKind::Caustic, plan.caustic_paths) : plan.global_radius;
+            plan.caustic_paths > 0 ? radius(std::move(caustic.photons), true) : plan.global_radius;
 }
 
 }  // namespace nephroid

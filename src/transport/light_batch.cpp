@@ -64,9 +64,11 @@ bool LightBatch::arrive(PathInFlight& path, bool in_lanes) {
 void LightBatch::land(PathInFlight const& path) {
     Walk const& walk = path.walk;
     bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-    if (path.v.is.near_specular || !shoot_.keeps(walk, caustic)) return;
-    landed_.push_back({path.c.path, Photon(photon_of(path.c, walk, path.v, told(path).light, caustic))});
-    ++told(path).stored;
+    if (path.v.is.near_specular || !(walk.vertex > 0 || shoot_.keeps_direct())) return;
+    bool const further = shoot_.leaves_further(caustic);
+    landed_.push_back(
+        {path.c.path, further, Photon(photon_of(path.c, walk, path.v, told(path).light, caustic))});
+    ++(further ? told(path).further : told(path).stored);
 }
 
 Paths LightBatch::survivors(Paths paths) {
@@ -75,8 +77,9 @@ Paths LightBatch::survivors(Paths paths) {
     draw_1d(paths, roulette_dimension(paths.front()->walk), drawn.data());
     float const* u = drawn.data();
     return keep(paths, [&](PathInFlight& path) {
-        float const q = power_survival(path.walk, before_[path.c.path]);
-        if (!(*u++ < q)) return ends(path, &PhotonCounts::absorbed);
+        float const share = shoot_.share_that_goes_on(path.walk.path_class);
+        float const q = power_survival(path.walk, before_[path.c.path]) * share;
+        if (!(*u++ < q)) return ends(path, share < 1.0f ? &PhotonCounts::landed : &PhotonCounts::absorbed);
         path.walk.beta /= q;
         return true;
     });
@@ -105,10 +108,9 @@ void LightBatch::follow(std::uint64_t first, std::size_t n) {
         }
         paths = joined({scatter_together(together, {.sample_lights = false}, leave_photon),
                         scatter_singly(singly, {.sample_lights = false}, leave_photon)});
-        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
-        if (shoot_.kind == ShotKind::Caustic)
+        if (vertex == 0)
             paths = keep(paths, [&](PathInFlight& path) {
-                return path.walk.path_class.all_specular() || ends(path, &PhotonCounts::landed);
+                return shoot_.follows(path.walk.path_class) || ends(path, &PhotonCounts::elsewhere);
             });
         paths = survivors(paths);
     }
@@ -118,14 +120,23 @@ void LightBatch::follow(std::uint64_t first, std::size_t n) {
 }
 
 void LightBatch::append_landed(std::size_t n) {
-    std::array<std::size_t, kMostInStep> at;
-    std::size_t size = chunk_.photons.size();
+    struct Places {
+        std::size_t photons, further;
+    };
+    std::array<Places, kMostInStep> at;
+    Places size{chunk_.photons.size(), chunk_.further.size()};
     for (std::size_t i = 0; i < n; ++i) {
         at[i] = size;
-        size += chunk_.paths[begun_ + i].stored;
+        size.photons += chunk_.paths[begun_ + i].stored;
+        size.further += chunk_.paths[begun_ + i].further;
     }
-    chunk_.photons.resize(size);
-    for (Landed const& l : landed_) chunk_.photons[at[l.path]++] = l.photon;
+    chunk_.photons.resize(size.photons);
+    chunk_.further.resize(size.further);
+    for (Landed const& l : landed_)
+        if (l.further)
+            chunk_.further[at[l.path].further++] = l.photon;
+        else
+            chunk_.photons[at[l.path].photons++] = l.photon;
 }
 
 }  // namespace nephroid

@@ -13,9 +13,9 @@ namespace nephroid {
 
 /// The photons of some paths, path by path, and how these ended, by source.
 struct PhotonChunk {
-    std::vector<Photon> photons;
+    std::vector<Photon> photons, further;  // as a Shot's
     struct Path {
-        std::uint32_t light = 0, stored = 0;
+        std::uint32_t light = 0, stored = 0, further = 0;
         End end = &PhotonCounts::dark;
     };
     std::vector<Path> paths;
@@ -67,6 +67,7 @@ class LightBatch {
     /// A photon, and which path left it.
     struct Landed {
         std::uint32_t path;
+        bool further;
         Photon photon;
     };
 

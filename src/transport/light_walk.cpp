@@ -58,8 +58,8 @@ float power_survival(Walk const& walk, Spectrum before) {
     return min(1.0f, left / before.max());
 }
 
-bool survives_with_power(PathContext& c, Walk& walk, Spectrum before) {
-    float const q = power_survival(walk, before);
+bool survives_with_power(PathContext& c, Walk& walk, Spectrum before, float share) {
+    float const q = power_survival(walk, before) * share;
     c.sampler.at(roulette_dimension(walk));
     if (!(c.sampler.next_1d() < q)) return false;
     walk.beta /= q;

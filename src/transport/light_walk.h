@@ -33,9 +33,9 @@ std::optional<LightStart> emit(PathContext& c, Aim const* aim, std::uint64_t pat
                                std::uint32_t* light = nullptr);
 
 /// Roulette of light paths: a path survives a scattering with the share of its power that is left, so that photons weigh nearly
-/// the same (Jensen 2001, 5.2). `before` is beta before the scattering.
-bool survives_with_power(PathContext& c, Walk& walk, Spectrum before);
-/// That share, at most 1.
+/// the same (Jensen 2001, 5.2), and only a `share` of those. `before` is beta before the scattering.
+bool survives_with_power(PathContext& c, Walk& walk, Spectrum before, float share = 1);
+/// The share of power, at most 1.
 float power_survival(Walk const& walk, Spectrum before);
 
 }  // namespace nephroid

@@ -20,17 +20,21 @@ float PhotonPlan::shrunk(float radius, float alpha, std::uint64_t pass) {
     return static_cast<float>(static_cast<double>(radius) * std::exp(0.5 * log_square));
 }
 
-ShotKind global_shot(Integrator const& integrator) {
-    return match(integrator, [](auto const& i) {
-        bool all = false;
-        if constexpr (requires { i.visualize; }) {
-            if (i.visualize == PhotonView::Both) return ShotKind::Others;
-            all = i.visualize != PhotonView::None;
-        }
-        if constexpr (requires { i.final_gather; }) all = all || i.final_gather;
-        return all ? ShotKind::Global : ShotKind::Indirect;
-    });
+namespace {
+
+/// What the integrator's global map holds. Gather rays see all light that falls on surfaces, and so does who looks at photons; where
+/// the map is read at what the camera sees, direct light is sampled, and caustics have their map.
+template <class I>
+void fill_global_map(I const& integrator, PhotonPlan& plan) {
+    bool gathers = false;
+    if constexpr (requires { integrator.final_gather; }) gathers = integrator.final_gather;
+    PhotonView const view = integrator.visualize;
+    bool const direct = gathers || view != PhotonView::None;
+    plan.global_kind = direct ? ShotKind::Others : ShotKind::Indirect;
+    plan.caustics_too = direct && view != PhotonView::Both;
 }
+
+}  // namespace
 
 std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
     Settings const& s = job.settings();
@@ -49,6 +53,7 @@ std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
             float const given = i.estimates.radius, given_caustic = i.estimates.caustic_radius;
             plan->global_radius = given;
             plan->caustic_radius = given_caustic > 0 ? given_caustic : given;
+            fill_global_map(i, *plan);
             return plan;
         } else {
             return nullptr;

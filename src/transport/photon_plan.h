@@ -15,6 +15,12 @@ class PhotonPlan {
     std::uint64_t global_paths = 0;               // per pass
     std::uint64_t caustic_paths = 0;              // per pass; 0 where nothing casts caustics
     float global_radius = 0, caustic_radius = 0;  // of pass 0; scene units
+    /// The global map is made of the photons of this shot, and of those that caustic paths leave further on …
+    ShotKind global_kind = ShotKind::Global;
+    /// … and of the caustics themselves, where it is to hold all light.
+    bool caustics_too = false;
+    /// The share of caustic paths that go on where they have landed (onward.cpp).
+    float onward = 0;
 
     /// r_i of pass i: r_1 shrinks as r^2_{i+1} = r^2_i (i + alpha) / (i + 1) (Knaus & Zwicker 2011, eq. 20), i counted from 1.
     [[nodiscard]] static float shrunk(float radius, float alpha, std::uint64_t pass);
@@ -23,9 +29,9 @@ class PhotonPlan {
 /// Null where the settings' integrator shoots no photons. Radii that are not given are left 0.
 std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job);
 
-/// What the integrator's global map holds. Gather rays see all light that falls on surfaces, and so does who looks at photons; where
-/// the map is read at what the camera sees, direct light is sampled, and caustics have their map.
-ShotKind global_shot(Integrator const& integrator);
+/// Sets the share of caustic paths that go on to what is worth their time (onward.cpp): a pure function of the job, which has to have
+/// the plan already.
+void find_onward(RenderJob const& job, PhotonPlan& plan);
 
 /// Sets radii that are 0 to what suits the scene, by the pixels' footprints where the camera looks and by how far apart photons land
 /// there (automatic_radius.cpp): a pure function of the job, which grows with the scene. The job has to have the plan already.

@@ -28,17 +28,31 @@ EstimateRule rule_of(PhotonEstimates const& e, float first_radius, float alpha, 
     return rule;
 }
 
-/// One map: shot, and put in order.
-bool make_map(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t paths,
-              EstimateRule const& rule, PrepareControl const& control, PhotonMap& map, PhotonReport& report) {
-    if (paths == 0) return true;
+void append(std::vector<Photon>& to, std::vector<Photon> const& photons) {
+    to.insert(to.end(), photons.begin(), photons.end());
+}
+
+/// Both maps: shot, sorted out, and put in order.
+bool make_maps(RenderJob const& job, std::uint64_t pass, PrepareControl const& control, PhotonMaps& maps,
+               PhotonReport& report) {
+    PhotonPlan const& plan = *job.photon_plan();
     auto const begun = Clock::now();
-    auto shot = shoot(job, kind, pass, paths, control);
-    if (!shot) return false;
+    auto global = shoot(job, plan.global_kind, pass, plan.global_paths, control);
+    if (!global) return false;
+    auto caustic = shoot(job, ShotKind::Caustic, pass, plan.caustic_paths, control);
+    if (!caustic) return false;
     auto const shot_at = Clock::now();
-    add(kind == ShotKind::Caustic ? report.caustic : report.global, shot->by_source);
-    report.rays.add(shot->rays);
-    map = PhotonMap(std::move(shot->photons), rule.k == 0 ? rule.radius : 0);
+    report.global = std::move(global->by_source);
+    report.caustic = std::move(caustic->by_source);
+    report.rays.add(global->rays);
+    report.rays.add(caustic->rays);
+    append(global->photons, caustic->further);
+    if (plan.caustics_too) append(global->photons, caustic->photons);
+    auto const map_of = [](std::vector<Photon> photons, EstimateRule const& rule) {
+        return PhotonMap(std::move(photons), rule.k == 0 ? rule.radius : 0);
+    };
+    maps.global = map_of(std::move(global->photons), maps.global_rule);
+    maps.caustic = map_of(std::move(caustic->photons), maps.caustic_rule);
     report.shooting_seconds += std::chrono::duration<double>(shot_at - begun).count();
     report.building_seconds += since(shot_at);
     return true;
@@ -71,13 +85,8 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
         if constexpr (requires { integrator.shooting; }) {
             maps->global_rule = rule_of(integrator.estimates, plan->global_radius, integrator.alpha, i);
             maps->caustic_rule = rule_of(integrator.estimates, plan->caustic_radius, integrator.alpha, i);
-            if (!make_map(job, global_shot(job.settings().integrator), i, plan->global_paths,
-                          maps->global_rule, control, maps->global, work->report) ||
-                !make_map(job, ShotKind::Caustic, i, plan->caustic_paths, maps->caustic_rule, control,
-                          maps->caustic, work->report))
-                return false;
-            if (global_shot(job.settings().integrator) == ShotKind::Global && plan->caustic_paths == 0 &&
-                plan->aim.casts()) {
+            if (!make_maps(job, i, control, *maps, work->report)) return false;
+            if (plan->caustics_too && plan->caustic_paths == 0 && plan->aim.casts()) {
                 maps->caustics_in_global = true;
                 maps->caustic_rule = maps->global_rule;
                 maps->caustic_rule.only_caustics = true;

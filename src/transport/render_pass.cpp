@@ -60,6 +60,7 @@ RenderJob::RenderJob(World const& world, Settings const& settings)
     if (world.encloses()) interiors_ = interiors_at(world, camera_.position(), uncounted);
     if (auto plan = make_photon_plan(*this)) {
         plan_ = plan;
+        find_onward(*this, *plan);
         find_radii(*this, *plan);
     }
 }

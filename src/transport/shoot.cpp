@@ -41,7 +41,8 @@ Shoot::Shoot(RenderJob const& j, PhotonPlan const& p, ShotKind k, std::uint64_t 
       paths(n),
       max_depth(static_cast<std::uint32_t>(std::max(0, shooting_of(j).max_depth))),
       aim(k == ShotKind::Caustic && shooting_of(j).aim && p.aim.casts() ? &p.aim : nullptr),
-      sorts_caustics(p.caustic_paths > 0) {}
+      divided(k != ShotKind::Global && p.caustic_paths > 0),
+      onward(p.onward) {}
 
 PhotonRecord photon_of(PathContext const& c, Walk const& walk, Vertex const& v, std::uint32_t light,
                        bool caustic) {

@@ -15,7 +15,8 @@ struct Shoot {
     std::uint64_t first, paths;  // numbers of the pass's block of the sequence
     std::uint32_t max_depth;
     Aim const* aim;
-    bool sorts_caustics;  // a map of their own has them
+    bool divided;  // paths that begin specularly are the caustic shot's
+    float onward;  // the share of its paths that go on where they have landed
 
     Shoot(RenderJob const& j, PhotonPlan const& p, ShotKind k, std::uint64_t pass, std::uint64_t n);
 
@@ -25,19 +26,19 @@ struct Shoot {
             kind == ShotKind::Caustic ? stream::kCausticPhotons : stream::kGlobalPhotons;
         return PathSampler(job.light_sequence(), which, 0, first + i);
     }
-    [[nodiscard]] bool keeps(Walk const& walk, bool caustic) const {
-        switch (kind) {
-            case ShotKind::Global:
-                return true;
-            case ShotKind::Caustic:
-                return caustic;
-            case ShotKind::Others:
-                return !(caustic && sorts_caustics);
-            case ShotKind::Indirect:
-                break;
-        }
-        return walk.vertex > 0 && !(caustic && sorts_caustics);
+    /// Whether the first surface is one at which a photon is left.
+    [[nodiscard]] bool keeps_direct() const { return kind == ShotKind::Global || kind == ShotKind::Others; }
+    /// Once the path was scattered: is it for this shot to follow?
+    [[nodiscard]] bool follows(PathClass path) const {
+        if (kind == ShotKind::Caustic) return path.began_specular();
+        return !(divided && path.began_specular());
     }
+    /// The chance to go on after a scattering, of paths that have not lost power by it.
+    [[nodiscard]] float share_that_goes_on(PathClass path) const {
+        return kind == ShotKind::Caustic && path.just_landed() ? onward : 1.0f;
+    }
+    /// Of a photon that is kept: is it one of Shot::further?
+    [[nodiscard]] bool leaves_further(bool caustic) const { return kind == ShotKind::Caustic && !caustic; }
 };
 
 /// The photon that a path leaves at a vertex.

@@ -36,8 +36,22 @@ struct Visit {
     void begins(Ray const& ray) { traced.vertices.push_back(ray.o); }
     void meets(Vec3 p) { traced.vertices.push_back(p); }
     void leaves(Ray const& ray) { traced.vertices.push_back(leaving_point(bounds, ray)); }
-    void lands(PhotonRecord const& r) { traced.photons.push_back(r); }
+    void lands(PhotonRecord const& r, bool further) {
+        (further ? traced.further : traced.photons).push_back(r);
+    }
 };
+
+/// What the chunks left, which are empty then.
+std::vector<Photon> one_after_another(std::vector<std::vector<Photon>>& chunks) {
+    std::vector<std::size_t> first(chunks.size() + 1);
+    for (std::size_t n = 0; n < chunks.size(); ++n) first[n + 1] = first[n] + chunks[n].size();
+    std::vector<Photon> all(first.back());
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+        std::copy(chunks[n].begin(), chunks[n].end(), all.begin() + static_cast<std::ptrdiff_t>(first[n]));
+        std::vector<Photon>().swap(chunks[n]);
+    });
+    return all;
+}
 
 /// Path `i` of a shot, from its light to its end. `visit` is told where it goes. This is what LightBatch does to many.
 End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats& stats, Visit& visit) {
@@ -59,13 +73,15 @@ End follow_light(Shoot const& s, std::uint64_t i, std::uint32_t& light, RayStats
         // Light that an absorbing medium has swallowed to the last float is no photon.
         if (walk.beta.is_black() || !prepare(c, walk, v)) return &PhotonCounts::absorbed;
         bool const caustic = walk.vertex > 0 && walk.path_class.all_specular();
-        if (!v.is.near_specular && s.keeps(walk, caustic)) visit.lands(photon_of(c, walk, v, light, caustic));
+        if (!v.is.near_specular && (walk.vertex > 0 || s.keeps_direct()))
+            visit.lands(photon_of(c, walk, v, light, caustic), s.leaves_further(caustic));
         if (walk.vertex >= s.max_depth) return &PhotonCounts::too_long;
         Spectrum const before = walk.beta;
         if (!scatter(c, walk, v)) return c.tainted ? &PhotonCounts::broken : &PhotonCounts::absorbed;
-        // Here, before roulette: what was scattered by such a surface has landed, whatever would have become of it.
-        if (s.kind == ShotKind::Caustic && !walk.path_class.all_specular()) return &PhotonCounts::landed;
-        if (!survives_with_power(c, walk, before)) return &PhotonCounts::absorbed;
+        if (!s.follows(walk.path_class)) return &PhotonCounts::elsewhere;
+        float const share = s.share_that_goes_on(walk.path_class);
+        if (!survives_with_power(c, walk, before, share))
+            return share < 1.0f ? &PhotonCounts::landed : &PhotonCounts::absorbed;
     }
 }
 
@@ -84,6 +100,7 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
 
     std::uint64_t const count = (paths + kChunk - 1) / kChunk;
     std::vector<std::vector<Photon>> photons(count);
+    std::vector<std::vector<Photon>> further(count);
     std::mutex adding;  // once a chunk: what is added up are whole numbers, in whatever order
     std::uint64_t done = 0;
     std::atomic<bool> stopped = false;
@@ -99,11 +116,12 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
             batch.follow(i, std::min<std::uint64_t>(kMostInStep, end - i));
         }
         photons[n] = std::move(chunk.photons);
+        further[n] = std::move(chunk.further);
         std::lock_guard const lock(adding);
         for (PhotonChunk::Path const& path : chunk.paths) {
             PhotonCounts& counts = shot.by_source[world.source_of(path.light)];
             ++counts.emitted;
-            counts.stored += path.stored;
+            counts.stored += path.stored + path.further;
             ++(counts.*path.end);
         }
         shot.rays.add(chunk.rays);
@@ -112,26 +130,23 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
     });
     if (stopped) return std::nullopt;
 
-    std::vector<std::size_t> first(count + 1);
-    for (std::size_t n = 0; n < count; ++n) first[n + 1] = first[n] + photons[n].size();
-    shot.photons.resize(first[count]);
-    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t n) {
-        std::copy(photons[n].begin(), photons[n].end(),
-                  shot.photons.begin() + static_cast<std::ptrdiff_t>(first[n]));
-        std::vector<Photon>().swap(photons[n]);
-    });
+    shot.photons = one_after_another(photons);
+    shot.further = one_after_another(further);
     return shot;
 }
 
 double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths) {
     if (paths == 0 || !job.photon_plan()) return 0;
     std::optional<Shot> const shot = shoot(job, kind, kPilotPass, paths, {});
-    return shot ? static_cast<double>(shot->photons.size()) / static_cast<double>(paths) : 0;
+    if (!shot) return 0;
+    return static_cast<double>(shot->photons.size() + shot->further.size()) / static_cast<double>(paths);
 }
 
 double expected_photons(RenderJob const& job) {
+    PhotonPlan const* plan = job.photon_plan();
+    if (!plan) return 0;
     double sum = 0;
-    for (ShotKind const kind : {global_shot(job.settings().integrator), ShotKind::Caustic})
+    for (ShotKind const kind : {plan->global_kind, ShotKind::Caustic})
         if (std::uint64_t const paths = paths_of_pass(job, kind); paths > 0)
             sum += static_cast<double>(paths) * photons_per_path(job, kind);
     return sum;

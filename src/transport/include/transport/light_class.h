@@ -63,6 +63,10 @@ class PathClass {
     }
     /// No D so far: what a path from the eye sees in mirrors, or one from a light that makes caustics.
     [[nodiscard]] bool all_specular() const { return diffuse_ == 0; }
+    /// The first scattering was S.
+    [[nodiscard]] bool began_specular() const { return began_specular_; }
+    /// The last scattering was the first D.
+    [[nodiscard]] bool just_landed() const { return diffuse_ == 1 && !specular_since_; }
     /// The last scattering was S.
     [[nodiscard]] bool specular_since() const { return specular_since_; }
 

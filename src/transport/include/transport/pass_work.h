@@ -19,12 +19,13 @@ struct PhotonCounts {
     std::uint64_t emitted = 0;  // paths, whether or not their first ray carried anything
     std::uint64_t stored = 0;   // photons
     // How paths ended.
-    std::uint64_t escaped = 0;   // left the scene
-    std::uint64_t absorbed = 0;  // by chance (roulette), or where nothing is scattered
-    std::uint64_t too_long = 0;  // at the limit of bounces
-    std::uint64_t landed = 0;    // caustic paths: at the first surface that is not specular
-    std::uint64_t dark = 0;      // the light sent nothing that way
-    std::uint64_t broken = 0;    // the power was not a number
+    std::uint64_t escaped = 0;    // left the scene
+    std::uint64_t absorbed = 0;   // by chance (roulette), or where nothing is scattered
+    std::uint64_t too_long = 0;   // at the limit of bounces
+    std::uint64_t landed = 0;     // caustic paths: where they left a caustic; a share goes on from there
+    std::uint64_t elsewhere = 0;  // what would follow is found by the paths of the other shot
+    std::uint64_t dark = 0;       // the light sent nothing that way
+    std::uint64_t broken = 0;     // the power was not a number
 
     void add(PhotonCounts const& b) {
         emitted += b.emitted;
@@ -33,6 +34,7 @@ struct PhotonCounts {
         absorbed += b.absorbed;
         too_long += b.too_long;
         landed += b.landed;
+        elsewhere += b.elsewhere;
         dark += b.dark;
         broken += b.broken;
     }

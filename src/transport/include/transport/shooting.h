@@ -9,16 +9,21 @@
 
 namespace nephroid {
 
-/// Which photons are kept.
+/// Which paths are shot, and which of their photons are kept. Where there is a caustic map, paths are divided by what scatters them
+/// first: those of the caustic shot (L S ...) can be aimed at mirrors and glass, and all light that went there is theirs; the others
+/// have the rest (L D ...). So no light is found twice.
 enum class ShotKind : std::uint8_t {
-    Global,    // L (S|D)* D: every hit on a surface that is not (near-)specular
-    Others,    // … without caustics where a map of their own has them
+    Global,  // L (S|D)* D: every hit on a surface that is not (near-)specular, whether or not there is a caustic map
+    Others,    // … of the paths that are not the caustic shot's
     Indirect,  // … and without direct light, L D: what is read where the camera looks
     Caustic    // L S+ D: the first such hit, of paths that were thrown there by specular surfaces alone
 };
 
 struct Shot {
-    std::vector<Photon> photons;          // by chunk of paths, in the order of the paths
+    std::vector<Photon> photons;  // in the order of the paths
+    /// L S+ D (S|D)* D, of a caustic shot: left by the share of its paths that goes on (PhotonPlan::onward). No caustics, so that they
+    /// are for the global map.
+    std::vector<Photon> further;
     std::vector<PhotonCounts> by_source;  // by World::light_sources()
     std::uint64_t paths = 0;
     RayStats rays;
@@ -30,7 +35,8 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
 
 /// The numbers of this pass are those of none that is rendered: what is to be known beforehand is shot in it.
 inline constexpr std::uint64_t kPilotPass = std::uint64_t{1} << 40;
-/// Photons that a path leaves, in the mean over the first so many of the pilot's; 0 where there is nothing to shoot.
+/// Photons that a path leaves, further ones included, in the mean over the first so many of the pilot's; 0 where there is nothing to
+/// shoot.
 double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths = 16384);
 /// … and that the maps of a pass are going to hold, about.
 double expected_photons(RenderJob const& job);
@@ -46,6 +52,7 @@ struct TracedPath {
     std::uint32_t light = 0;
     std::vector<Vec3> vertices;         // from the light on
     std::vector<PhotonRecord> photons;  // what it left
+    std::vector<PhotonRecord> further;  // … where a caustic path went on
     End end = &PhotonCounts::dark;
 };
 TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,
