@@ -98,7 +98,7 @@ std::vector<Vec3> where_photons_are(RenderJob const& job, PhotonMap const& map) 
 }  // namespace
 
 void find_radii(RenderJob const& job, PhotonPlan& plan) {
-    if (plan.global_radius > 0 && plan.caustic_radius > 0) return;
+    if (plan.global_radius > 0 && plan.caustic_radius > 0 && plan.further_radius > 0) return;
     int const nused = match(job.settings().integrator, [](auto const& i) {
         if constexpr (requires { i.estimates; }) return i.estimates.nused;
         return 0;
@@ -136,10 +136,13 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
     Shot caustic = pilot(ShotKind::Caustic, plan.caustic_paths);
     if (!(plan.global_radius > 0)) {
         std::vector<Photon> photons = pilot(plan.global_kind, plan.global_paths).photons;
-        photons.insert(photons.end(), caustic.further.begin(), caustic.further.end());
-        if (plan.caustics_too) photons.insert(photons.end(), caustic.photons.begin(), caustic.photons.end());
+        if (plan.further_in_global)
+            photons.insert(photons.end(), caustic.further.begin(), caustic.further.end());
+        if (plan.caustics_in_global)
+            photons.insert(photons.end(), caustic.photons.begin(), caustic.photons.end());
         plan.global_radius = radius(std::move(photons), false);
     }
+    if (!(plan.further_radius > 0)) plan.further_radius = radius(std::move(caustic.further), false);
     if (!(plan.caustic_radius > 0))
         plan.caustic_radius =
             plan.caustic_paths > 0 ? radius(std::move(caustic.photons), true) : plan.global_radius;

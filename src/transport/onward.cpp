@@ -21,8 +21,9 @@ namespace {
 constexpr std::uint64_t kPilotPaths = 16384;
 /// Of camera paths, about.
 constexpr double kRaysPerPixel = 4;
-/// However little it is worth: a pilot does not see everything.
-constexpr double kLeast = 1.0 / 16;
+/// A pilot does not see what counts in the picture: this share of its time a pass spends on going on, however little that seems to be
+/// worth.
+constexpr double kLeastTime = 0.05;
 
 double squares_of(std::vector<Photon> const& photons) {
     double sum = 0;
@@ -66,8 +67,11 @@ void find_onward(RenderJob const& job, PhotonPlan& plan) {
     double const others = global.times > 0 ? squares_of(global.shot.photons) / global.times : 0;
     double const own = squares_of(going_on.shot.further) / landing.times;
     // Nothing is to be weighed where the others leave nothing, or where it costs nothing.
-    if (others > 0 && further > 0)
-        plan.onward = static_cast<float>(std::clamp(std::sqrt(own / others * anyway / further), kLeast, 1.0));
+    if (others > 0 && further > 0) {
+        double const ratio = anyway / further;
+        plan.onward =
+            static_cast<float>(std::min(1.0, std::max(kLeastTime * ratio, std::sqrt(own / others * ratio))));
+    }
 }
 
 }  // namespace nephroid

@@ -51,7 +51,6 @@ void gather(PhotonMapIntegrator const& p, PathContext& c, Walk walk, SeenLight& 
 /// Along specular chains to the first D, and all light that it reflects.
 void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t gather_rays, AovSample* aov,
           SeenLight& seen) {
-    PhotonMaps const& maps = *c.photons;
     auto const most = static_cast<std::uint32_t>(p.max_depth);  // mirrors and glass in a row
     Vertex v;
     for (;;) {
@@ -67,7 +66,7 @@ void look(PhotonMapIntegrator const& p, PathContext& c, Walk walk, std::uint32_t
     seen[LightClass::Caustic] += walk.beta * caustic.radiance;
     Estimate global;
     if (!p.final_gather) {
-        global = reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength);
+        global = from_indirect(c, walk, v, kAnyLength);
         seen[LightClass::Indirect] += walk.beta * global.radiance;
         gather_rays = 1;  // for lights that scattering finds, and for delta parts
     }

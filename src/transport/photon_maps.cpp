@@ -11,6 +11,14 @@ Spectrum from_global_map(PathContext& c, Walk const& walk, Vertex const& v) {
     return reflected(c, walk, v, maps.global, maps.global_rule, kAnyLength).radiance;
 }
 
+Estimate from_indirect(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t most_bounces) {
+    PhotonMaps const& maps = *c.photons;
+    Estimate e = reflected(c, walk, v, maps.global, maps.global_rule, most_bounces);
+    if (maps.further.size() == 0) return e;
+    Estimate const further = reflected(c, walk, v, maps.further, maps.further_rule, most_bounces);
+    return {e.radiance + further.radiance, max(e.radius, further.radius), e.photons + further.photons};
+}
+
 Estimate from_caustics(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t most_bounces) {
     PhotonMaps const& maps = *c.photons;
     return reflected(c, walk, v, maps.caustics_in_global ? maps.global : maps.caustic, maps.caustic_rule,

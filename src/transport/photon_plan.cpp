@@ -31,7 +31,8 @@ void fill_global_map(I const& integrator, PhotonPlan& plan) {
     PhotonView const view = integrator.visualize;
     bool const direct = gathers || view != PhotonView::None;
     plan.global_kind = direct ? ShotKind::Others : ShotKind::Indirect;
-    plan.caustics_too = direct && view != PhotonView::Both;
+    plan.further_in_global = direct;
+    plan.caustics_in_global = direct && view != PhotonView::Both;
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
             plan->aim = Aim(job.world());
             plan->caustic_paths = plan->aim.casts() ? count(shooting.caustic_paths, plan->global_paths) : 0;
             float const given = i.estimates.radius, given_caustic = i.estimates.caustic_radius;
-            plan->global_radius = given;
+            plan->global_radius = plan->further_radius = given;
             plan->caustic_radius = given_caustic > 0 ? given_caustic : given;
             fill_global_map(i, *plan);
             return plan;

@@ -15,10 +15,14 @@ class PhotonPlan {
     std::uint64_t global_paths = 0;               // per pass
     std::uint64_t caustic_paths = 0;              // per pass; 0 where nothing casts caustics
     float global_radius = 0, caustic_radius = 0;  // of pass 0; scene units
-    /// The global map is made of the photons of this shot, and of those that caustic paths leave further on …
+    float further_radius = 0;                     // … where there is a map of Shot::further
+    /// The global map is made of the photons of this shot …
     ShotKind global_kind = ShotKind::Global;
+    /// … and, where it is not read at what the camera sees, of those that caustic paths leave further on. Else they have a map of their
+    /// own: they may weigh a thousandth of the others, and lie so much closer.
+    bool further_in_global = false;
     /// … and of the caustics themselves, where it is to hold all light.
-    bool caustics_too = false;
+    bool caustics_in_global = false;
     /// The share of caustic paths that go on where they have landed (onward.cpp).
     float onward = 0;
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace nephroid {
 
@@ -46,12 +47,13 @@ bool make_maps(RenderJob const& job, std::uint64_t pass, PrepareControl const& c
     report.caustic = std::move(caustic->by_source);
     report.rays.add(global->rays);
     report.rays.add(caustic->rays);
-    append(global->photons, caustic->further);
-    if (plan.caustics_too) append(global->photons, caustic->photons);
+    if (plan.further_in_global) append(global->photons, std::exchange(caustic->further, {}));
+    if (plan.caustics_in_global) append(global->photons, caustic->photons);
     auto const map_of = [](std::vector<Photon> photons, EstimateRule const& rule) {
         return PhotonMap(std::move(photons), rule.k == 0 ? rule.radius : 0);
     };
     maps.global = map_of(std::move(global->photons), maps.global_rule);
+    maps.further = map_of(std::move(caustic->further), maps.further_rule);
     maps.caustic = map_of(std::move(caustic->photons), maps.caustic_rule);
     report.shooting_seconds += std::chrono::duration<double>(shot_at - begun).count();
     report.building_seconds += since(shot_at);
@@ -85,8 +87,9 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
         if constexpr (requires { integrator.shooting; }) {
             maps->global_rule = rule_of(integrator.estimates, plan->global_radius, integrator.alpha, i);
             maps->caustic_rule = rule_of(integrator.estimates, plan->caustic_radius, integrator.alpha, i);
+            maps->further_rule = rule_of(integrator.estimates, plan->further_radius, integrator.alpha, i);
             if (!make_maps(job, i, control, *maps, work->report)) return false;
-            if (plan->caustics_too && plan->caustic_paths == 0 && plan->aim.casts()) {
+            if (plan->caustics_in_global && plan->caustic_paths == 0 && plan->aim.casts()) {
                 maps->caustics_in_global = true;
                 maps->caustic_rule = maps->global_rule;
                 maps->caustic_rule.only_caustics = true;
@@ -102,7 +105,8 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
         return true;
     });
     if (!done) return std::nullopt;
-    work->report.bytes = maps->global.bytes() + maps->caustic.bytes() + maps->irradiance.bytes();
+    work->report.bytes =
+        maps->global.bytes() + maps->caustic.bytes() + maps->further.bytes() + maps->irradiance.bytes();
     work->photons = std::move(maps);
     return work;
 }

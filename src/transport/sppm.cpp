@@ -13,9 +13,8 @@ void estimate(PathInFlight& path, std::uint32_t most) {
     auto& [c, walk, met, v, seen, aov] = path;
     if (v.is.near_specular) return;
     if (v.in_lanes) orient(walk, v);
-    PhotonMaps const& maps = *c.photons;
     Estimate const caustic = from_caustics(c, walk, v, most);
-    Estimate const global = reflected(c, walk, v, maps.global, maps.global_rule, most);
+    Estimate const global = from_indirect(c, walk, v, most);
     seen[LightClass::Caustic] += walk.beta * caustic.radiance;
     seen[LightClass::Indirect] += walk.beta * global.radiance;
     if (aov) record_estimates(caustic, global, *aov);
