@@ -170,6 +170,7 @@ TEST_CASE("in lanes: photons are those of paths that are followed alone") {
                 Shot const shot = shot_of(world, s, kind, 3);
                 RenderJob const job(world, s);
                 std::vector<Photon> alone;
+                std::vector<Photon> further;
                 std::vector<PhotonCounts> ends(shot.by_source.size());
                 for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(paths); ++i) {
                     TracedPath const path =
@@ -177,14 +178,20 @@ TEST_CASE("in lanes: photons are those of paths that are followed alone") {
                     PhotonCounts& counts = ends[world.source_of(path.light)];
                     ++counts.emitted;
                     ++(counts.*path.end);
-                    counts.stored += path.photons.size();
+                    counts.stored += path.photons.size() + path.further.size();
                     for (PhotonRecord const& r : path.photons) alone.emplace_back(r);
+                    for (PhotonRecord const& r : path.further) further.emplace_back(r);
                 }
                 for (std::size_t i = 0; i < ends.size(); ++i)
                     CHECK(std::memcmp(&ends[i], &shot.by_source[i], sizeof(PhotonCounts)) == 0);
                 CHECK(shot.photons.size() > 100);
                 REQUIRE(shot.photons.size() == alone.size());
                 CHECK(std::memcmp(shot.photons.data(), alone.data(), alone.size() * sizeof(Photon)) == 0);
+                CHECK((shot.further.size() > 100) == (kind == ShotKind::Caustic));
+                REQUIRE(shot.further.size() == further.size());
+                if (!further.empty())
+                    CHECK(std::memcmp(shot.further.data(), further.data(), further.size() * sizeof(Photon)) ==
+                          0);
             }
     }
 }

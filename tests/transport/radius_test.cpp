@@ -31,12 +31,13 @@ SppmIntegrator sppm(int paths = -1) {
     return p;
 }
 struct Radii {
-    float global, caustic;
+    float global, caustic, further;
     bool operator==(Radii const&) const = default;
 };
 Radii radii(World const& world, Settings const& s) {
     RenderJob const job(world, s);
-    return {job.photon_plan()->global_radius, job.photon_plan()->caustic_radius};
+    PhotonPlan const& plan = *job.photon_plan();
+    return {plan.global_radius, plan.caustic_radius, plan.further_radius};
 }
 /// Photons of pass 0 in the estimates of pixels, and the radius: medians over those that made one.
 struct Medians {
@@ -148,17 +149,18 @@ TEST_CASE("radii are a function of the job, given ones are kept, and finding the
     CHECK(a == radii(world, s));
     auto& p = std::get<SppmIntegrator>(s.integrator);
     p.estimates.caustic_radius = 0.125f;
-    CHECK(radii(world, s) == Radii{a.global, 0.125f});
+    CHECK(radii(world, s) == Radii{a.global, 0.125f, a.further});
     p.estimates.radius = 0.5f;
-    CHECK(radii(world, s) == Radii{0.5f, 0.125f});
+    CHECK(radii(world, s) == Radii{0.5f, 0.125f, 0.5f});
     p.estimates.caustic_radius = 0;
-    CHECK(radii(world, s) == Radii{0.5f, 0.5f});
+    CHECK(radii(world, s) == Radii{0.5f, 0.5f, 0.5f});
 }
 
 TEST_CASE("some radius even where there is nothing: no light, nothing in view, no surface at all, no paths") {
     auto const some = [](World const& w, int paths = 1000) {
         Radii const r = radii(w, settings(sppm(paths), 16, 16));
-        return r.global > 0 && r.caustic > 0 && std::isfinite(r.global) && std::isfinite(r.caustic);
+        return r.global > 0 && r.caustic > 0 && r.further > 0 && std::isfinite(r.global) &&
+               std::isfinite(r.caustic) && std::isfinite(r.further);
     };
     Scene dark;
     add(dark, floor_quad(100), diffuse(dark, 0.5f));
