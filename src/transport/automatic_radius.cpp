@@ -120,14 +120,14 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
         auto const n = static_cast<std::uint64_t>(std::llround(static_cast<double>(paths) * share));
         return std::move(*shoot(job, kind, kPilotPass, n, {}));
     };
-    auto const radius = [&](std::vector<Photon> photons, bool caustic) {
+    auto const radius = [&](std::vector<Photon> photons, bool where_they_are) {
         float r = 0;
         if (!photons.empty()) {
             PhotonMap const map(std::move(photons));
             auto const k = static_cast<std::uint32_t>(std::min<std::size_t>(kNeighbours, map.size()));
             // A photon is not its own neighbour.
-            std::uint32_t const self = caustic ? 1 : 0;
-            r = spacing(map, caustic ? where_photons_are(job, map) : seen.places, k + self) *
+            std::uint32_t const self = where_they_are ? 1 : 0;
+            r = spacing(map, where_they_are ? where_photons_are(job, map) : seen.places, k + self) *
                 std::sqrt(wanted * static_cast<float>(share) / static_cast<float>(k));
         }
         if (!(r > 0.0f && std::isfinite(r))) r = std::isfinite(size) && size > 0 ? 0.01f * size : 1.0f;
@@ -142,7 +142,7 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
             photons.insert(photons.end(), caustic.photons.begin(), caustic.photons.end());
         plan.global_radius = radius(std::move(photons), false);
     }
-    if (!(plan.further_radius > 0)) plan.further_radius = radius(std::move(caustic.further), false);
+    if (!(plan.further_radius > 0)) plan.further_radius = radius(std::move(caustic.further), true);
     if (!(plan.caustic_radius > 0))
         plan.caustic_radius =
             plan.caustic_paths > 0 ? radius(std::move(caustic.photons), true) : plan.global_radius;

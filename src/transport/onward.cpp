@@ -18,21 +18,30 @@ namespace nephroid {
 
 namespace {
 
-constexpr std::uint64_t kPilotPaths = 16384;
+constexpr std::uint64_t kPilotPaths = 4096;
 /// Of camera paths, about.
 constexpr double kRaysPerPixel = 4;
 /// A pilot does not see what counts in the picture: this share of its time a pass spends on going on, however little that seems to be
 /// worth.
-constexpr double kLeastTime = 0.05;
+constexpr double kLeastTime = 0.02;
 
-double squares_of(std::vector<Photon> const& photons) {
-    double sum = 0;
-    for (Photon const& p : photons) {
-        auto const power = static_cast<double>(p.power().max());
-        sum += power * power;
+/// Photons that weigh a quarter of others may lie in one map with them; far less, and they want a smaller radius.
+constexpr double kAlike = 0.25;
+
+/// Sums over photons.
+struct Powers {
+    double sum = 0, squares = 0;
+
+    explicit Powers(std::vector<Photon> const& photons) {
+        for (Photon const& p : photons) {
+            auto const power = static_cast<double>(p.power().max());
+            sum += power;
+            squares += power * power;
+        }
     }
-    return sum;
-}
+    /// The mean of a photon's power, by power.
+    [[nodiscard]] double typical() const { return sum > 0 ? squares / sum : 0; }
+};
 double rays_of(Shot const& shot) {
     double sum = 0;
     for (std::uint64_t const n : shot.rays.rays) sum += static_cast<double>(n);
@@ -64,14 +73,16 @@ void find_onward(RenderJob const& job, PhotonPlan& plan) {
     double const anyway =
         kRaysPerPixel * pixels + rays_of(global.shot) * global.times + rays_of(landing.shot) * landing.times;
     double const further = (rays_of(going_on.shot) - rays_of(landing.shot)) * landing.times;
-    double const others = global.times > 0 ? squares_of(global.shot.photons) / global.times : 0;
-    double const own = squares_of(going_on.shot.further) / landing.times;
+    Powers const others(global.shot.photons);
+    Powers const own(going_on.shot.further);
     // Nothing is to be weighed where the others leave nothing, or where it costs nothing.
-    if (others > 0 && further > 0) {
-        double const ratio = anyway / further;
-        plan.onward =
-            static_cast<float>(std::min(1.0, std::max(kLeastTime * ratio, std::sqrt(own / others * ratio))));
-    }
+    if (!(others.squares > 0 && further > 0)) return;
+    double const ratio = anyway / further;
+    double const worth = own.squares / landing.times / (others.squares / global.times);
+    double const q = std::min(1.0, std::max(kLeastTime * ratio, std::sqrt(worth * ratio)));
+    plan.onward = static_cast<float>(q);
+    plan.further_in_global = plan.further_in_global ||
+                             own.typical() / landing.times / q > kAlike * others.typical() / global.times;
 }
 
 }  // namespace nephroid

@@ -148,7 +148,8 @@ double expected_photons(RenderJob const& job) {
     double sum = 0;
     for (ShotKind const kind : {plan->global_kind, ShotKind::Caustic})
         if (std::uint64_t const paths = paths_of_pass(job, kind); paths > 0)
-            sum += static_cast<double>(paths) * photons_per_path(job, kind);
+            sum += static_cast<double>(paths) * photons_per_path(job, kind) *
+                   (kind == ShotKind::Caustic && plan->caustics_in_global ? 2 : 1);  // they are in both maps
     return sum;
 }
 
