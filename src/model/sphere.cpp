@@ -1,4 +1,5 @@
 // Sphere about the origin, poles on z, cut in z and phi. Parametrisation of PBRT 4th ed., 6.2.
+#include "model/sphere_ray.h"
 #include "sampling/warp.h"
 #include "shape_common.h"
 
@@ -35,26 +36,20 @@ Bounds3 bounds(Sphere const& s) {
     return b;
 }
 
+bool is_whole(Sphere const& s) {
+    return lowest(s) == -kInfinity && highest(s) == kInfinity && !(s.phi_max < kTwoPi);
+}
+
 std::optional<ShapeHit> intersect(Sphere const& s, std::uint32_t, Ray3d const& ray, double t_min,
                                   double t_max) {
-    // |o + t d|^2 = r^2, that is a t^2 + 2 h t + c = 0. The discriminant by the distance of the line from the centre, |o x d| / |d|, which
-    // does not cancel for far spheres (as PBRT 4th ed., 6.8.3); the sign of c tells on which side of the sphere the origin is.
-    double const r = s.radius;
-    double const a = detail::dot3(ray.d, ray.d);
-    double const h = detail::dot3(ray.d, ray.o);
-    double const c = detail::dot3(ray.o, ray.o) - r * r;
-    auto const moment = detail::cross3(ray.o, ray.d);
-    double const discriminant = a * r * r - detail::dot3(moment, moment);
-    bool const behind = c > 0 && h > 0;
-    if (behind || !(discriminant >= 0) || a == 0) return std::nullopt;
-    double const root = std::sqrt(discriminant);
-    double const q = h < 0 ? -h + root : -h - root;
+    SphereEquation const e(ray, s.radius);
+    if (!e.solvable()) return std::nullopt;
+    SphereRoots const roots(e);
     double const z_lo = lowest(s);
     double const z_hi = highest(s);
-    // From inside there is only the far one. Without cancellation one is q / a, the other c / q.
-    for (bool far : {false, true}) {
-        if (!far && c < 0) continue;
-        double const t = far == (h < 0) ? q / a : c / q;
+    for (bool const far : {false, true}) {
+        if (!far && e.from_inside()) continue;
+        double const t = far ? roots.far : roots.near;
         if (!(t > t_min && t < t_max)) continue;
         auto const p = detail::at(ray, t);
         if (p[2] < z_lo || p[2] > z_hi) continue;

@@ -55,13 +55,4 @@ Vec2 invert_bilinear(Vec2 p, float const w[4]) {
             invert_linear(p.y, w[0] + w[1], w[2] + w[3])};
 }
 
-std::array<float, 4> cosine_weights(std::array<Vec3, 4> const& corners, Vec3 n, bool two_sided) {
-    std::array<float, 4> w;
-    for (std::size_t i = 0; i < 4; ++i) {
-        float const c = dot(n, corners[i]) / length(corners[i]);
-        w[i] = max(two_sided ? std::abs(c) : c, 0.01f);
-    }
-    return w;
-}
-
 }  // namespace nephroid

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
+#include <new>
 
 namespace nephroid {
 
@@ -116,7 +116,8 @@ void CameraBatch::run(PathTrace* trace) {
         path.c.trace = trace;
         path.seen = {};
         if (path.aov) *path.aov = {};
-        std::construct_at(&path.walk)->begin_at_camera(path.c, samples_[i].camera.ray);
+        // Not construct_at(), which would fill it with zeros before.
+        (::new (&path.walk) Walk)->begin_at_camera(path.c, samples_[i].camera.ray);
         if (trace) trace->begins(path.c, samples_[i].at, samples_[i].camera);
     }
     trace_camera_rays();

@@ -1,7 +1,6 @@
 #include "diffuse_lanes.h"
 
 #include "shadow_queue.h"
-#include "world/light_lanes.h"
 #include "world/ray_packet.h"
 
 #include <array>
@@ -58,7 +57,7 @@ void DiffuseLanes::complete_hits() const {
     }
 }
 
-void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
+void DiffuseLanes::sample_light(Vec2 const* u_light, WaitingReceivers& waiting) {
     PathContext const& any = paths_[0]->c;
     ReceiverLanes to;
     Vec2Lanes u;
@@ -67,9 +66,11 @@ void DiffuseLanes::add_direct(Vec2 const* u_light, bool mis) const {
         to.n.set(i, facing(i));
     }
     for (std::size_t i = 0; i < paths_.size(); ++i) u.set(i, u_light[i]);
-    LightSampleLanes light;
-    any.world.sample_lone_flat_light(to, used(), any.lights, u, light);
+    any.world.sample_lone_flat_light(to, used(), any.lights, u, light_, waiting);
+}
 
+void DiffuseLanes::add_direct(bool mis) const {
+    LightSampleLanes const& light = light_;
     ArrivingLanes arriving;
     for (std::size_t i = 0; i < kLanes; ++i) {
         float const cos_wi = dot(light.wi[i], s_.ns[i]);

@@ -5,6 +5,7 @@
 #include "math/lanes.h"
 #include "model/triangle_lanes.h"
 #include "path_in_flight.h"
+#include "world/light_lanes.h"
 
 #include <span>
 
@@ -17,20 +18,25 @@ class DiffuseLanes {
 
     /// Fills what was left out of the vertices' hits.
     void complete_hits() const;
-    /// add_direct() of each, by the one light of the world, which is flat (World::has_lone_flat_light). `u`: its numbers.
-    void add_direct(Vec2 const* u, bool mis) const;
+    /// What the one light of the world sends, which is flat (World::has_lone_flat_light), by the numbers `u`. Some may have to wait for others
+    /// before they know.
+    void sample_light(Vec2 const* u, WaitingReceivers& waiting);
+    /// add_direct() of each by that.
+    void add_direct(bool mis) const;
     /// scatter() of each by the numbers `u`; the lanes of those that go on.
     [[nodiscard]] LaneMask scatter(Vec2 const* u) const;
 
   private:
     /// The shading normal on the side of the eye.
     [[nodiscard]] Vec3 facing(std::size_t i) const { return s_.ns[i] * (cos_wo_[i] < 0.0f ? -1.0f : 1.0f); }
+
     [[nodiscard]] LaneMask used() const { return (1u << paths_.size()) - 1u; }
 
     std::span<PathInFlight* const> paths_;
     SurfaceLanes s_;
     Vec3Lanes d_;  // of the rays that came
     FloatLanes cos_wo_{};
+    LightSampleLanes light_;
 };
 
 }  // namespace nephroid

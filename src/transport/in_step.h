@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <type_traits>
 
@@ -84,6 +86,23 @@ Paths scatter_singly(Paths paths, AtVertices what, Estimate const& estimate) {
     });
 }
 
+/// Eight by eight. (Made one at a time: an array of optional ones is filled with zeros by g++, all of its 15 KB.)
+class VerticesOfBatch {
+  public:
+    DiffuseLanes& add(Paths eight) {
+        eights_[count_] = ::new (&room_[count_ * sizeof(DiffuseLanes)]) DiffuseLanes(eight);
+        return *eights_[count_++];
+    }
+    [[nodiscard]] DiffuseLanes const& operator[](std::size_t i) const { return *eights_[i]; }
+
+  private:
+    static constexpr std::size_t kMost = kMostInStep / kLanes;
+    static_assert(std::is_trivially_destructible_v<DiffuseLanes>);
+    alignas(DiffuseLanes) std::array<std::byte, kMost * sizeof(DiffuseLanes)> room_;
+    std::array<DiffuseLanes*, kMost> eights_;
+    std::size_t count_ = 0;
+};
+
 /// … of those that are `in_lanes`, eight at a time.
 template <class Estimate>
 Paths scatter_together(Paths paths, AtVertices what, Estimate const& estimate) {
@@ -99,11 +118,18 @@ Paths scatter_together(Paths paths, AtVertices what, Estimate const& estimate) {
     };
     if (what.sample_lights) draw(paths, dimension::kLight, to(light));
     draw(paths, dimension::kDirection, to(direction));
+    VerticesOfBatch eights;
+    WaitingReceivers waiting;
+    for (std::size_t first = 0; first < paths.size(); first += kLanes) {
+        DiffuseLanes& vertices = eights.add(paths.subspan(first, std::min(kLanes, paths.size() - first)));
+        if (what.sample_lights && light_in_lanes) vertices.sample_light(&light[first], waiting);
+    }
+    world.sample_waiting(waiting);
     std::size_t n = 0;
     for (std::size_t first = 0; first < paths.size(); first += kLanes) {
         Paths const eight = paths.subspan(first, std::min(kLanes, paths.size() - first));
-        DiffuseLanes const vertices(eight);
-        if (what.sample_lights && light_in_lanes) vertices.add_direct(&light[first], what.mis);
+        DiffuseLanes const& vertices = eights[first / kLanes];
+        if (what.sample_lights && light_in_lanes) vertices.add_direct(what.mis);
         if (kEstimates || light_singly) vertices.complete_hits();
         for (std::size_t i = 0; i < eight.size() && light_singly; ++i) {
             orient(eight[i]->walk, eight[i]->v);

@@ -1,5 +1,6 @@
 #include "ray_caster.h"
 
+#include "few_spheres.h"
 #include "model/texture.h"
 #include "sampling/hash.h"
 #include "scene/match.h"
@@ -75,17 +76,9 @@ struct UserRay {
         : t_min(static_cast<double>(RTCRayN_tnear(rays, n, i))),
           t_max(static_cast<double>(RTCRayN_tfar(rays, n, i))),
           direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)} {
-        Ray3d const r{{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-                      {direction.x, direction.y, direction.z}};
-        if (!g.record->place) {
-            local = r;
-            return;
-        }
-        auto const& m = g.record->place->group_to_shape;
-        for (std::size_t k = 0; k < 3; ++k) {
-            local.o[k] = m[k][0] * r.o[0] + m[k][1] * r.o[1] + m[k][2] * r.o[2] + m[k][3];
-            local.d[k] = m[k][0] * r.d[0] + m[k][1] * r.d[1] + m[k][2] * r.d[2];
-        }
+        local = g.record->in_shape(
+            {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+             {direction.x, direction.y, direction.z}});
     }
 };
 
@@ -222,17 +215,16 @@ void occluded_callback(RTCOccludedFunctionNArguments const* args) {
 }
 
 /// Group-space bounds of one primitive of an analytic shape, a little wider than computed: the shape is exact, its box rounds.
-void bounds_callback(RTCBoundsFunctionArguments const* args) {
-    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+Bounds3 bounds_of(ObjectRecord const& record, std::uint32_t primitive) {
     Bounds3 const local = match(
-        g.record->object->shape, [](TriangleMesh const&) { return Bounds3{}; },
+        record.object->shape, [](TriangleMesh const&) { return Bounds3{}; },
         [](LoopSubdivision const&) { return Bounds3{}; },
-        [&](auto const& shape) { return primitive_bounds(shape, args->primID); });
+        [&](auto const& shape) { return primitive_bounds(shape, primitive); });
     Bounds3 b;
-    if (g.record->place) {
+    if (record.place) {
         for (int i = 0; i < 8; ++i) {
-            Vec3 const p = g.record->place->shape_to_group.point(local.corner(i));
-            Vec3 const e = g.record->place->shape_to_group.point_error(local.corner(i), Vec3{0, 0, 0});
+            Vec3 const p = record.place->shape_to_group.point(local.corner(i));
+            Vec3 const e = record.place->shape_to_group.point_error(local.corner(i), Vec3{0, 0, 0});
             b.add(p - e);
             b.add(p + e);
         }
@@ -240,12 +232,17 @@ void bounds_callback(RTCBoundsFunctionArguments const* args) {
         b = local;
     }
     Vec3 const slack = gamma_bound(4) * max(abs(b.lo), abs(b.hi));
-    args->bounds_o->lower_x = b.lo.x - slack.x;
-    args->bounds_o->lower_y = b.lo.y - slack.y;
-    args->bounds_o->lower_z = b.lo.z - slack.z;
-    args->bounds_o->upper_x = b.hi.x + slack.x;
-    args->bounds_o->upper_y = b.hi.y + slack.y;
-    args->bounds_o->upper_z = b.hi.z + slack.z;
+    return {b.lo - slack, b.hi + slack};
+}
+void bounds_callback(RTCBoundsFunctionArguments const* args) {
+    auto const& g = *static_cast<UserGeometry const*>(args->geometryUserPtr);
+    Bounds3 const b = bounds_of(*g.record, args->primID);
+    args->bounds_o->lower_x = b.lo.x;
+    args->bounds_o->lower_y = b.lo.y;
+    args->bounds_o->lower_z = b.lo.z;
+    args->bounds_o->upper_x = b.hi.x;
+    args->bounds_o->upper_y = b.hi.y;
+    args->bounds_o->upper_z = b.hi.z;
 }
 
 }  // namespace
@@ -253,6 +250,8 @@ void bounds_callback(RTCBoundsFunctionArguments const* args) {
 struct RayCaster::Impl {
     RTCDevice device = nullptr;
     std::vector<RTCScene> groups;
+    FewSpheres spheres;  // of the root, which Embree does not know
+    Bounds3 spheres_bounds;
     std::vector<std::unique_ptr<UserGeometry>> users;
     CastScene scene{};
     std::atomic<std::int64_t> bytes{0};
@@ -295,7 +294,9 @@ RayCaster::~RayCaster() {
 std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std::size_t first,
                                    std::size_t count) {
     RTCScene const scene = rtcNewScene(impl_->device);
+    bool const root = impl_->groups.empty();
     impl_->groups.push_back(scene);
+    if (root) impl_->spheres.take({records.data() + first, count});
 #if NEPHROID_EMBREE == 4
     constexpr auto kFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
@@ -305,6 +306,10 @@ std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < count; ++i) {
         ObjectRecord const& record = records[first + i];
+        if (root && impl_->spheres.has(static_cast<std::uint32_t>(i))) {
+            impl_->spheres_bounds.add(bounds_of(record, 0));
+            continue;
+        }
         RTCGeometry geometry = nullptr;
         if (auto const* mesh = std::get_if<TriangleMesh>(&record.object->shape)) {
             geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -332,11 +337,11 @@ std::uint32_t RayCaster::add_group(std::vector<ObjectRecord> const& records, std
         rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
     }
-    // Group 0 is the root: it is committed when its instances are in.
-    if (impl_->groups.size() > 1) {
-        rtcCommitScene(scene);
-    } else {
+    // The root is committed when its instances are in.
+    if (root) {
         first_instance_ = static_cast<std::uint32_t>(count);
+    } else {
+        rtcCommitScene(scene);
     }
     impl_->check("building the acceleration structure");
     return static_cast<std::uint32_t>(impl_->groups.size() - 1);
@@ -377,6 +382,11 @@ void fill(RTCRay& r, Ray const& ray, float t_max, std::uint32_t mask) {
     r.flags = 0;
 }
 
+/// How far Embree should look: past a sphere by so little that whatever is as near as the sphere is found for sure, and compared here.
+float told(float t_max, SphereMet const& sphere) {
+    return min(t_max, PacketContext::told(static_cast<float>(sphere.t)));
+}
+
 struct alignas(32) Valid : std::array<int, kLanes> {};
 
 void fill(RTCRay8& r, RayPacket const& rays, LaneMask lanes, std::uint32_t mask, Valid& valid) {
@@ -398,8 +408,9 @@ void fill(RTCRay8& r, RayPacket const& rays, LaneMask lanes, std::uint32_t mask,
 }  // namespace
 
 bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t sees) const {
+    SphereMet const sphere = impl_->spheres.nearest(ray, kLeastT, t_max, sees);
     RTCRayHit rh;
-    fill(rh.ray, ray, t_max, sees);
+    fill(rh.ray, ray, told(t_max, sphere), sees);
     rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if NEPHROID_EMBREE == 4
@@ -410,6 +421,10 @@ bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t 
     rtcIntersect1(impl_->groups.front(), &context, &rh);
 #endif
     hit.found = rh.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    if (sphere.found() && !(hit.found && rh.ray.tfar <= sphere.t)) {
+        impl_->spheres.complete(ray, sphere, hit);
+        return true;
+    }
     if (!hit.found) return false;
     hit.t = rh.ray.tfar;
     hit.u = rh.hit.u;
@@ -422,6 +437,7 @@ bool RayCaster::nearest(Ray const& ray, float t_max, RawHit& hit, std::uint32_t 
 }
 
 bool RayCaster::any(Ray const& ray, float t_max) const {
+    if (impl_->spheres.nearest(ray, kLeastT, t_max, seen(Passage::Solid)).found()) return true;
     RTCRay r;
     fill(r, ray, t_max, seen(Passage::Solid));
 #if NEPHROID_EMBREE == 4
@@ -444,6 +460,15 @@ void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit
     }
     PacketContext context;
     begin(context);
+    SphereMetLanes spheres;
+    impl_->spheres.nearest(rays, lanes, kLeastT, kAll, spheres);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        SphereMet const sphere = spheres[i];
+        rh.ray.tfar[i] = told(rays.t_max[i], sphere);
+        if (sphere.found())
+            context.met[i] = {static_cast<float>(sphere.t), RTC_INVALID_GEOMETRY_ID,
+                              impl_->spheres.geometry(sphere), 0};
+    }
 #if NEPHROID_EMBREE == 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
@@ -460,7 +485,12 @@ void RayCaster::nearest(RayPacket const& rays, LaneMask lanes, std::array<RawHit
     for (std::size_t i = 0; i < kLanes; ++i) {
         RawHit& hit = hits[i];
         hit.found = rh.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-        if (!hit.found) continue;
+        if (!hit.found) {
+            // Embree found nothing nearer.
+            if (spheres[i].found() && (lanes >> i & 1u) != 0)
+                impl_->spheres.complete(rays.ray(i), spheres[i], hit);
+            continue;
+        }
         hit.t = context.met[i].t;
         hit.u = rh.hit.u[i];
         hit.v = rh.hit.v[i];
@@ -480,6 +510,14 @@ LaneMask RayCaster::any(RayPacket const& rays, LaneMask lanes) const {
         }
         return met;
     }
+    if (!impl_->spheres.empty()) {
+        SphereMetLanes spheres;
+        impl_->spheres.nearest(rays, lanes, kLeastT, seen(Passage::Solid), spheres);
+        for (std::size_t i = 0; i < kLanes; ++i) met |= static_cast<LaneMask>(spheres[i].found()) << i;
+        met &= lanes;
+        lanes &= ~met;
+        if (lanes == 0) return met;
+    }
     RTCRay8 r;
     Valid valid;
     fill(r, rays, lanes, seen(Passage::Solid), valid);
@@ -490,19 +528,22 @@ LaneMask RayCaster::any(RayPacket const& rays, LaneMask lanes) const {
     begin(context);
     rtcOccluded8(valid.data(), impl_->groups.front(), &context, &r);
 #endif
-    for (std::size_t i = 0; i < kLanes; ++i) met |= static_cast<LaneMask>(r.tfar[i] < 0.0f) << i;
-    return met & lanes;
+    LaneMask hidden = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) hidden |= static_cast<LaneMask>(r.tfar[i] < 0.0f) << i;
+    return met | (hidden & lanes);
 }
 
 Bounds3 RayCaster::bounds() const {
     RTCBounds b;
     rtcGetSceneBounds(impl_->groups.front(), &b);
-    if (b.lower_x > b.upper_x) return {};
-    return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+    Bounds3 all = impl_->spheres_bounds;
+    if (b.lower_x <= b.upper_x)
+        all.add({{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
+    return all;
 }
 
 std::size_t RayCaster::bytes() const {
-    return static_cast<std::size_t>(std::max<std::int64_t>(0, impl_->bytes.load()));
+    return static_cast<std::size_t>(std::max<std::int64_t>(0, impl_->bytes.load())) + impl_->spheres.bytes();
 }
 
 }  // namespace nephroid

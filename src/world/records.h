@@ -16,6 +16,16 @@ namespace nephroid {
 struct AnalyticPlace {
     std::array<std::array<double, 4>, 3> group_to_shape;
     AffineMap shape_to_group;
+
+    /// A ray of the group in the shape's space; t stays what it is. Without a branch, so that lanes may use it.
+    static Ray3d in_shape(std::array<std::array<double, 4>, 3> const& m, Ray3d const& r) {
+        Ray3d local;
+        for (std::size_t k = 0; k < 3; ++k) {
+            local.o[k] = m[k][0] * r.o[0] + m[k][1] * r.o[1] + m[k][2] * r.o[2] + m[k][3];
+            local.d[k] = m[k][0] * r.d[0] + m[k][1] * r.d[1] + m[k][2] * r.d[2];
+        }
+        return local;
+    }
 };
 
 struct ObjectRecord {
@@ -30,6 +40,10 @@ struct ObjectRecord {
     bool textured = false;  // wants uv and tangents
     Passage passage = Passage::Solid;
 
+    /// A ray of its group in the space of an analytic shape.
+    [[nodiscard]] Ray3d in_shape(Ray3d const& r) const {
+        return place ? AnalyticPlace::in_shape(place->group_to_shape, r) : r;
+    }
     [[nodiscard]] bool emits() const { return first_light != kNoLight; }
 };
 

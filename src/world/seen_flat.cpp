@@ -64,13 +64,9 @@ bool sample_warped(Map const& map, std::array<Vec3, 4> const& corners, Receiver 
                    float& pdf) {
     float const solid_angle = map.solid_angle();
     if (!(solid_angle > 0.0f)) return false;
-    pdf = 1.0f / solid_angle;
-    if (to.n != Vec3(0)) {
-        auto const weights = cosine_weights(corners, to.n, to.both_sides);
-        u = sample_bilinear(u, weights.data());
-        pdf *= bilinear_pdf(u, weights.data());
-    }
-    st = map.sample(u);
+    BentByCosine const bent(corners, to, u);
+    pdf = 1.0f / solid_angle * bent.pdf;
+    st = map.sample(bent.u);
     return true;
 }
 template <class Map>
@@ -82,12 +78,10 @@ float warped_pdf(Map const& map, std::array<Vec3, 4> const& corners, Receiver co
     return bilinear_pdf(map.invert(st), weights.data()) / solid_angle;
 }
 
-std::array<Vec3, 4> square_corners(LightEntry const& e, Vec3 corner) {
+/// Of the triangle's square one edge is the corner b.
+std::array<Vec3, 4> triangle_corners(LightEntry const& e, Vec3 corner) {
     Vec3 const b = corner + e.edge1;
-    Vec3 const c = corner + e.edge2;
-    // Of the triangle's square one edge is the corner b.
-    if (e.shape == LightShape::Triangle) return {b, b, corner, c};
-    return {corner, b, c, b + e.edge2};
+    return {b, b, corner, corner + e.edge2};
 }
 
 }  // namespace
@@ -99,7 +93,7 @@ bool sample_near_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st,
             return sample_warped(rectangle(corner, e.edge1, e.edge2), square_corners(e, corner), to, u, st,
                                  pdf);
         case LightShape::Triangle:
-            return sample_warped(triangle(e, corner), square_corners(e, corner), to, u, st, pdf);
+            return sample_warped(triangle(e, corner), triangle_corners(e, corner), to, u, st, pdf);
         default: {
             TwoTriangles const t(corner, e.edge1, e.edge2);
             if (!(t.sum > 0.0f)) return false;
@@ -117,7 +111,7 @@ float near_flat_pdf(LightEntry const& e, Receiver const& to, Vec3 p) {
             return warped_pdf(rectangle(corner, e.edge1, e.edge2), square_corners(e, corner), to,
                               coordinates(e, p));
         case LightShape::Triangle:
-            return warped_pdf(triangle(e, corner), square_corners(e, corner), to, coordinates(e, p));
+            return warped_pdf(triangle(e, corner), triangle_corners(e, corner), to, coordinates(e, p));
         default: {
             float const sum = TwoTriangles(corner, e.edge1, e.edge2).sum;
             return sum > 0.0f ? 1.0f / sum : 0.0f;

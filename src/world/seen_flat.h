@@ -35,6 +35,27 @@ inline Vec3 area_point(LightEntry const& e, Vec2 square) {
 /// (s, t) of a point of the plane: corner + s edge1 + t edge2.
 Vec2 coordinates(LightEntry const& e, Vec3 p);
 
+/// The square that a map by solid angle wants, bent by the receiver's cosine; pdf over the square. Without a branch, so that lanes may
+/// use it. `corners` as cosine_weights wants them.
+struct BentByCosine {
+    Vec2 u;
+    float pdf;
+
+    BentByCosine(std::array<Vec3, 4> const& corners, Receiver const& to, Vec2 square) {
+        auto const weights = cosine_weights(corners, to.n, to.both_sides);
+        Vec2 const bent = sample_bilinear(square, weights.data());
+        float const bent_pdf = bilinear_pdf(bent, weights.data());
+        bool const anywhere = (to.n.x == 0.0f) & (to.n.y == 0.0f) & (to.n.z == 0.0f);
+        u = {anywhere ? square.x : bent.x, anywhere ? square.y : bent.y};
+        pdf = anywhere ? 1.0f : bent_pdf;
+    }
+};
+/// Of a rectangle or a parallelogram, its corner relative to the receiver.
+inline std::array<Vec3, 4> square_corners(LightEntry const& e, Vec3 corner) {
+    Vec3 const b = corner + e.edge1;
+    return {corner, b, corner + e.edge2, b + e.edge2};
+}
+
 /// Draws (s, t); false where the emitter is seen from its own plane. pdf by solid angle.
 bool sample_near_flat(LightEntry const& e, Receiver const& to, Vec2 u, Vec2& st, float& pdf);
 /// The density with which it draws p.

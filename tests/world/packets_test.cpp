@@ -3,22 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include <bit>
-
 using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
 
 using Hits = std::array<RawHit, kLanes>;
-
-/// All of a hit that a picture is made of, as bits.
-std::array<std::uint32_t, 10> bits(RawHit const& h) {
-    if (!h.found) return {};
-    auto const b = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    return {1,          b(h.t),      b(h.u),    b(h.v), b(h.local.x), b(h.local.y), b(h.local.z),
-            h.geometry, h.primitive, h.instance};
-}
 
 /// Meshes, analytic shapes, alpha that chance decides on, and an appearance of a group.
 Scene things() {

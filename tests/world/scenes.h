@@ -7,6 +7,8 @@
 #include "statistics.h"
 #include "world/world.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -121,6 +123,14 @@ inline MaterialId diffuse(Scene& s, Spd const& reflectance = ConstantSpd{0.5f}) 
 
 inline Object object(Shape shape, MaterialId material, Mat4 const& to_group = {}) {
     return {.shape = std::move(shape), .to_group = to_group, .material = material};
+}
+
+/// All of a hit that a picture is made of, as bits.
+inline std::array<std::uint32_t, 10> bits(RawHit const& h) {
+    if (!h.found) return {};
+    auto const b = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    return {1,          b(h.t),      b(h.u),    b(h.v), b(h.local.x), b(h.local.y), b(h.local.z),
+            h.geometry, h.primitive, h.instance};
 }
 
 inline AreaLight emission(float radiance) {

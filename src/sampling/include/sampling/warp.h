@@ -150,7 +150,14 @@ Vec2 invert_bilinear(Vec2 p, float const w[4]);
 /// spherical_rectangle.h) is given sample_bilinear(u, weights) instead of u, and its density is multiplied by bilinear_pdf (Hart et
 /// al. 2020, "Practical Product Sampling by Fitting and Composing Warps"). `corners`: directions, of any length, in which the
 /// map sees the corners of the square (0,0), (1,0), (0,1), (1,1). The floor keeps every direction possible.
-std::array<float, 4> cosine_weights(std::array<Vec3, 4> const& corners, Vec3 n, bool two_sided);
+inline float cosine_weight(Vec3 corner, Vec3 n, bool two_sided) {
+    float const c = dot(n, corner) / length(corner);
+    return max(two_sided ? std::abs(c) : c, 0.01f);
+}
+inline std::array<float, 4> cosine_weights(std::array<Vec3, 4> const& corners, Vec3 n, bool two_sided) {
+    return {cosine_weight(corners[0], n, two_sided), cosine_weight(corners[1], n, two_sided),
+            cosine_weight(corners[2], n, two_sided), cosine_weight(corners[3], n, two_sided)};
+}
 
 /// Balance and power heuristics (Veach 1997, 9.2.2) of one sample from each of two strategies.
 inline float balance_heuristic(float f, float g) { return f / (f + g); }

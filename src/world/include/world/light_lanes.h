@@ -20,6 +20,18 @@ struct LightSampleLanes {
     RuntimeSpectrum const* radiance = nullptr;
 };
 
+/// Receivers that see the light at a wide angle wait, until there are eight of them; then their samples are filled.
+struct WaitingReceivers {
+    struct Place {
+        LightSampleLanes* samples;
+        std::size_t lane;
+    };
+    ReceiverLanes to;
+    Vec2Lanes u;
+    std::array<Place, kLanes> places;
+    std::size_t count = 0;
+};
+
 /// Rays that the light sends out (LightRay). pdf 0: none.
 struct EmittedLanes {
     Vec3Lanes o, d;             // o: moved off the light

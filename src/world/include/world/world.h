@@ -140,9 +140,11 @@ class World {
                                             Wavelengths const& lambda) const;
     /// Whether the world is lit by one flat surface alone, that shines everywhere the same.
     [[nodiscard]] bool has_lone_flat_light() const;
-    /// The samples of that one for eight receivers; lanes not in `used` mean nothing. The bits of sample_light().
+    /// The samples of that one for eight receivers, by the numbers u; lanes not in `used` mean nothing. The bits of sample_light(). Some
+    /// lanes are left to wait, and filled by a later call or by sample_waiting() in the end.
     void sample_lone_flat_light(ReceiverLanes const& to, LaneMask used, LightSampling how, Vec2Lanes const& u,
-                                LightSampleLanes& sample) const;
+                                LightSampleLanes& sample, WaitingReceivers& waiting) const;
+    void sample_waiting(WaitingReceivers& waiting) const;
     /// The density with which sample_light(to) would have found the emitting point `hit` seen along w.
     float light_pdf(SurfaceHit const& hit, Receiver const& to, LightSampling how, Vec3 w) const;
     /// … or the infinite light along w.
