@@ -21,6 +21,10 @@ void for_each_job(World const& world, F f) {
     for (Integrator const& integrator : integrators())
         for (Sampler const& sampler : samplers())
             for (ColorMode const color : {ColorMode::Rgb, ColorMode::Spectral}) {
+                // What sanitizers look for does not come with one pair of sampler and colours only.
+                bool const second = color == ColorMode::Spectral;
+                if (kSanitizerShare > 1 && ((integrator.index() + sampler.index()) % 2 != 0) != second)
+                    continue;
                 Settings s = world.scene().settings;
                 s.integrator = integrator;
                 s.sampler = sampler;
