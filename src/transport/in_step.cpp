@@ -39,9 +39,18 @@ bool prepare(PathInFlight& path, bool in_lanes) {
 }
 
 Split split(Paths paths) {
-    auto const singly =
-        std::partition(paths.begin(), paths.end(), [](PathInFlight const* path) { return path->v.in_lanes; });
-    return {{paths.begin(), singly}, {singly, paths.end()}};
+    std::array<PathInFlight*, kMostInStep> others;
+    std::size_t together = 0;
+    std::size_t singly = 0;
+    for (PathInFlight* path : paths) {
+        bool const in_lanes = path->v.in_lanes;
+        paths[together] = path;
+        others[singly] = path;
+        together += in_lanes ? 1 : 0;
+        singly += in_lanes ? 0 : 1;
+    }
+    std::copy_n(others.begin(), singly, paths.begin() + static_cast<std::ptrdiff_t>(together));
+    return {paths.first(together), paths.subspan(together)};
 }
 
 Paths joined(Split const& split) {

@@ -8,23 +8,27 @@ namespace {
 /// Russian roulette: survives() of each.
 Paths survivors(Paths paths, Roulette const& roulette) {
     std::array<float, kMostInStep> chance;
-    std::array<float, kMostInStep> drawn;
+    std::array<float, kMostInStep> drawn{};
     std::array<PathInFlight*, kMostInStep> asking;
     std::size_t n = 0;
+    // Chance is what no branch can be predicted by: there is none but for the lucky case that nobody takes any.
     for (std::size_t i = 0; i < paths.size(); ++i) {
         chance[i] = survival(paths[i]->walk, roulette);
-        if (takes_chance(chance[i])) asking[n++] = paths[i];
+        asking[n] = paths[i];
+        n += takes_chance(chance[i]) ? 1 : 0;
     }
     if (n == 0) return paths;
     draw_1d(Paths{asking.data(), n}, roulette_dimension(paths.front()->walk), drawn.data());
     float const* u = drawn.data();
     float const* q = chance.data();
     return keep(paths, [&](PathInFlight& path) {
-        float const survival = *q++;
-        if (!takes_chance(survival)) return true;
-        if (*u++ >= survival) return false;
+        bool const takes = takes_chance(*q);
+        float const survival = takes ? *q : 1.0f;
+        bool const dies = takes & (*u >= survival);
+        ++q;
+        u += takes ? 1 : 0;
         path.walk.beta /= survival;
-        return true;
+        return !dies;
     });
 }
 
