@@ -51,7 +51,7 @@ struct TileSum {
     double weight = 0;      // sum of v^2/(n-1): Satterthwaite's denominator
 };
 
-void add(TileSum& tile, Estimate const& e, double sign, int x, int y, int c) {
+void add(TileSum& tile, MeanPicture const& e, double sign, int x, int y, int c) {
     double const v = e.variance_of_mean.get(x, y, c);
     tile.difference += sign * e.mean.get(x, y, c);
     tile.variance += v;
@@ -84,7 +84,7 @@ double student_t_two_sided(double t, double dof) {
     return incomplete_beta(dof / 2, 0.5, dof / (dof + t * t));
 }
 
-WelchResult welch_test(Estimate const& a, Estimate const& b, int tile_size) {
+WelchResult welch_test(MeanPicture const& a, MeanPicture const& b, int tile_size) {
     for (Image const* i : {&a.variance_of_mean, &b.mean, &b.variance_of_mean})
         if (i->width() != a.mean.width() || i->height() != a.mean.height() ||
             i->channels() != a.mean.channels() || i->empty())

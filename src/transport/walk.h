@@ -104,7 +104,7 @@ struct Walk {
 };
 
 /// How many paths go in step at most.
-inline constexpr std::size_t kMostInStep = 128;  // a multiple of kLanes
+inline constexpr std::size_t kMostInStep = 256;  // a multiple of kLanes
 
 /// Numbers of a vertex that were drawn ahead, together with those of other paths.
 struct Drawn {

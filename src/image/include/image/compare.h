@@ -30,7 +30,7 @@ double incomplete_beta(double a, double b, double x);
 
 /// A render's mean and the variance of that mean, per pixel and channel, from `samples` independent samples a pixel
 /// (0: unknown, many).
-struct Estimate {
+struct MeanPicture {
     Image const& mean;
     Image const& variance_of_mean;
     int samples = 0;
@@ -45,6 +45,6 @@ struct WelchResult {
 };
 /// Welch's test on the means of tiles, degrees of freedom by Satterthwaite. Pixels are taken to be independent; a wide
 /// pixel filter that shares samples between pixels makes it too sure.
-WelchResult welch_test(Estimate const& a, Estimate const& b, int tile_size = 16);
+WelchResult welch_test(MeanPicture const& a, MeanPicture const& b, int tile_size = 16);
 
 }  // namespace nephroid
