@@ -64,7 +64,7 @@ void print_shot(std::string const& scene, char const* map, RenderJob const& job,
         std::optional<Shot> shot;
         shooting.push_back(seconds_alone([&] { shot = shoot(job, kind, 0, paths, {}); }));
         floor.push_back(seconds_alone([&] { trace_only(job.world(), rays); }));
-        stored = shot->photons.size();
+        stored = shot->photons.size() + shot->further.size();
         PhotonMap photons;
         building.push_back(seconds_alone([&] { photons = PhotonMap(std::move(shot->photons), radius); }));
         // Asked at photons, as many as there are, in the order of the map, which is about that of tiles.

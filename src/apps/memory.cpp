@@ -79,8 +79,8 @@ std::uint64_t left_in_control_group() {
 constexpr std::uint64_t kEncodingBytes = 36, kEncodingBytesAovs = 190;
 
 /// A photon takes 48 bytes in a map, and 130 more while that is made (transport/photon_map.h). A path leaves two or three in the
-/// global map of a room whose walls give back 60 or 70 %, and one at most in the caustic map.
-constexpr std::uint64_t kPhotonBytes = 178, kGlobalPathBytes = 400, kCausticPathBytes = 160;
+/// maps of a room whose walls give back 60 or 70 %; of the caustic paths so do those that go on.
+constexpr std::uint64_t kPhotonBytes = 178, kPathBytes = 400;
 /// Photons of a map are numbered in 32 bits; the pilot's count is off by a little.
 constexpr double kMostPhotons = 4e9;
 /// Light tracing sums in double, by classes of light where layers are wanted, in the pass and in the one before; and keeps the
@@ -105,7 +105,7 @@ std::uint64_t photon_need(Settings const& settings) {
     return match(settings.integrator, [&](auto const& i) -> std::uint64_t {
         if constexpr (requires { i.shooting; }) {
             std::uint64_t const global = count_or(i.shooting.global_paths, pixels);
-            return global * kGlobalPathBytes + count_or(i.shooting.caustic_paths, global) * kCausticPathBytes;
+            return (global + count_or(i.shooting.caustic_paths, global)) * kPathBytes;
         } else if constexpr (requires { i.paths; }) {
             return pixels * (film.aovs ? kSplatPixelBytesAovs : kSplatPixelBytes) +
                    std::min(count_or(i.paths, pixels), kSplatPathsKept) * kSplatPathBytes;

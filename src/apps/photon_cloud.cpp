@@ -14,7 +14,7 @@ Settings photon_settings(Settings const& settings) {
         return requires { i.shooting; };
     });
     if (!maps) set_integrator(s, "photonmap");
-    // No map is asked, so that no radius need be found.
+    // No map is asked, so that no radius need be found. (How many caustic paths go on is: that is how they go.)
     match(s.integrator, [](auto& i) {
         if constexpr (requires { i.shooting; }) i.estimates.radius = i.estimates.caustic_radius = 1;
     });

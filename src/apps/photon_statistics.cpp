@@ -51,7 +51,7 @@ std::string fates(PhotonCounts const& c) {
 }
 
 nlohmann::json to_json(PhotonCounts const& c, double seconds) {
-    nlohmann::json j{{"emitted", c.emitted}, {"stored", c.stored}};
+    nlohmann::json j{{"emitted", c.emitted}, {"stored", c.stored}, {"further", c.further}};
     j["emitted_per_second"] = rate(c.emitted, seconds);
     j["stored_per_second"] = rate(c.stored, seconds);
     for (Fate const& fate : kFates) j[fate.key] = c.*fate.count;
@@ -66,7 +66,9 @@ PhotonCounts total_of(std::vector<PhotonCounts> const& by_source) {
     return all;
 }
 
-bool shot_photons(RunStatistics const& s) { return sources(s.photons) > 0; }
+bool shot_photons(RunStatistics const& s) {
+    return total_of(s.photons.global).emitted + total_of(s.photons.caustic).emitted > 0;
+}
 
 std::string photon_table(RunStatistics const& s) {
     if (!shot_photons(s)) return {};
@@ -76,8 +78,9 @@ std::string photon_table(RunStatistics const& s) {
         PhotonCounts const c = total_of(*list);
         if (c.emitted == 0) continue;
         std::string const ends = fates(c);
-        t += fmt::format("{} {:<8} {} paths, {} photons stored{}{}\n", t.empty() ? "photons" : "       ",
-                         name, amount(c.emitted), amount(c.stored), ends.empty() ? "" : "; ", ends);
+        std::string const further = c.further > 0 ? fmt::format(", {} further on", amount(c.further)) : "";
+        t += fmt::format("{} {:<8} {} paths, {} photons stored{}{}{}\n", t.empty() ? "photons" : "       ",
+                         name, amount(c.emitted), amount(c.stored), further, ends.empty() ? "" : "; ", ends);
     }
     PhotonCounts all = total_of(r.global);
     all.add(total_of(r.caustic));
@@ -85,7 +88,8 @@ std::string photon_table(RunStatistics const& s) {
         "        shooting {:.2f} s ({:.2f} M paths/s, {:.2f} M photons/s), building {:.2f} s, maps of a pass "
         "{}\n",
         r.shooting_seconds, millions(rate(all.emitted, r.shooting_seconds)),
-        millions(rate(all.stored, r.shooting_seconds)), r.building_seconds, bytes_text(r.bytes));
+        millions(rate(all.stored + all.further, r.shooting_seconds)), r.building_seconds,
+        bytes_text(r.bytes));
     std::size_t const n = sources(r);
     if (n < 2) return t;
     std::vector<std::size_t> order(n);

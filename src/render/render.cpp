@@ -126,11 +126,12 @@ class Loop {
         return control_.stop && control_.stop->load(std::memory_order_relaxed);
     }
 
-    /// Batches of about a second: long enough to pay for starting threads and for what is kept to go back to (1% of a quarter of a
-    /// second), short enough to lose.
+    /// Batches of a second at most: long enough to pay for starting threads and for what is kept to go back to (1% of a quarter of a
+    /// second), short enough to lose. At first shorter: a stop loses no more than about half of what there is.
     std::uint64_t next_size(std::uint64_t size, double seconds) const {
         if (job_.prepares()) return 1;  // each pass has work of its own
-        double const target = control_.seconds ? std::min(0.25, std::max(0.02, *control_.seconds / 20)) : 1.0;
+        double const target = control_.seconds ? std::min(0.25, std::max(0.02, *control_.seconds / 20))
+                                               : std::clamp(since(start_) / 4, 0.25, 1.0);
         if (seconds > 2 * target) return std::max<std::uint64_t>(1, size / 2);
         if (seconds < target / 2) return std::min<std::uint64_t>(64, size * 2);
         return size;

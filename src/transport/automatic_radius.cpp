@@ -112,15 +112,19 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
     Seen const seen = look_around(job);
     // No finer than what a pixel shows.
     float const least = median(seen.footprints);
-    // A share of the paths of a pass, as many of either kind as there are in it.
+    // A share of the paths of a pass. Where photons of both kinds lie in one map, it has to be the same of either.
+    auto const share_of = [](std::uint64_t paths) {
+        return paths > kPilotPaths ? static_cast<double>(kPilotPaths) / static_cast<double>(paths) : 1.0;
+    };
+    bool const in_one = plan.further_in_global || plan.caustics_in_global;
     std::uint64_t const most = std::max(plan.global_paths, plan.caustic_paths);
-    double const share = std::min(
-        1.0, static_cast<double>(kPilotPaths) / static_cast<double>(std::max<std::uint64_t>(1, most)));
-    auto const pilot = [&](ShotKind kind, std::uint64_t paths) {
-        auto const n = static_cast<std::uint64_t>(std::llround(static_cast<double>(paths) * share));
+    double const global_share = share_of(in_one ? most : plan.global_paths);
+    double const caustic_share = share_of(in_one ? most : plan.caustic_paths);
+    auto const pilot = [&](ShotKind kind, std::uint64_t paths, double share) {
+        auto const n = static_cast<std::uint64_t>(std::ceil(static_cast<double>(paths) * share - 1e-6));
         return std::move(*shoot(job, kind, kPilotPass, n, {}));
     };
-    auto const radius = [&](std::vector<Photon> photons, bool where_they_are) {
+    auto const radius = [&](std::vector<Photon> photons, double share, bool where_they_are) {
         float r = 0;
         if (!photons.empty()) {
             PhotonMap const map(std::move(photons));
@@ -133,19 +137,20 @@ void find_radii(RenderJob const& job, PhotonPlan& plan) {
         if (!(r > 0.0f && std::isfinite(r))) r = std::isfinite(size) && size > 0 ? 0.01f * size : 1.0f;
         return max(r, least) * room;
     };
-    Shot caustic = pilot(ShotKind::Caustic, plan.caustic_paths);
+    Shot caustic = pilot(ShotKind::Caustic, plan.caustic_paths, caustic_share);
     if (!(plan.global_radius > 0)) {
-        std::vector<Photon> photons = pilot(plan.global_kind, plan.global_paths).photons;
+        std::vector<Photon> photons = pilot(plan.global_kind, plan.global_paths, global_share).photons;
         if (plan.further_in_global)
             photons.insert(photons.end(), caustic.further.begin(), caustic.further.end());
         if (plan.caustics_in_global)
             photons.insert(photons.end(), caustic.photons.begin(), caustic.photons.end());
-        plan.global_radius = radius(std::move(photons), false);
+        plan.global_radius = radius(std::move(photons), global_share, false);
     }
-    if (!(plan.further_radius > 0)) plan.further_radius = radius(std::move(caustic.further), true);
+    if (!(plan.further_radius > 0))
+        plan.further_radius = radius(std::move(caustic.further), caustic_share, true);
     if (!(plan.caustic_radius > 0))
-        plan.caustic_radius =
-            plan.caustic_paths > 0 ? radius(std::move(caustic.photons), true) : plan.global_radius;
+        plan.caustic_radius = plan.caustic_paths > 0 ? radius(std::move(caustic.photons), caustic_share, true)
+                                                     : plan.global_radius;
 }
 
 }  // namespace nephroid

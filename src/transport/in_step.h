@@ -89,7 +89,7 @@ Paths scatter_singly(Paths paths, AtVertices what, Estimate const& estimate) {
     });
 }
 
-/// Eight by eight. (Made one at a time: an array of optional ones is filled with zeros by g++, all of its 15 KB.)
+/// Eight by eight. (Made one at a time: an array of optional ones is filled with zeros by g++, tens of KB.)
 class VerticesOfBatch {
   public:
     DiffuseLanes& add(Paths eight) {

@@ -51,8 +51,7 @@ double rays_of(Shot const& shot) {
 }  // namespace
 
 void find_onward(RenderJob const& job, PhotonPlan& plan) {
-    plan.onward = 0;
-    if (plan.caustic_paths == 0) return;
+    if (!(plan.onward > 0.0f)) return;
     /// `n` paths of a pilot stand for all of a pass, and it stands for: of squared power, less by that, too, since each carries less.
     struct Pilot {
         Shot shot;
@@ -64,6 +63,7 @@ void find_onward(RenderJob const& job, PhotonPlan& plan) {
                      n > 0 ? static_cast<double>(paths) / static_cast<double>(n) : 0};
     };
     Pilot const global = pilot(plan.global_kind, plan.global_paths);
+    plan.onward = 0;
     Pilot const landing = pilot(ShotKind::Caustic, plan.caustic_paths);
     plan.onward = 1;
     Pilot const going_on = pilot(ShotKind::Caustic, plan.caustic_paths);

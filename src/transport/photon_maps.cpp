@@ -21,7 +21,7 @@ Estimate from_indirect(PathContext& c, Walk const& walk, Vertex const& v, std::u
 
 Estimate from_caustics(PathContext& c, Walk const& walk, Vertex const& v, std::uint32_t most_bounces) {
     PhotonMaps const& maps = *c.photons;
-    return reflected(c, walk, v, maps.caustics_in_global ? maps.global : maps.caustic, maps.caustic_rule,
+    return reflected(c, walk, v, maps.caustics_from_global ? maps.global : maps.caustic, maps.caustic_rule,
                      most_bounces);
 }
 

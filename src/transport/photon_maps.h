@@ -8,9 +8,9 @@ namespace nephroid {
 
 struct PhotonMaps {
     PhotonMap global, caustic;
-    PhotonMap further;                // what caustic paths left further on, where the global map has it not
-    bool caustics_in_global = false;  // none were shot by themselves
-    IrradianceMap irradiance;         // of the global map; where the integrator gathers
+    PhotonMap further;                  // what caustic paths left further on, where the global map has it not
+    bool caustics_from_global = false;  // none were shot by themselves
+    IrradianceMap irradiance;           // of the global map; where the integrator gathers
     EstimateRule global_rule, caustic_rule, further_rule;
     float shortest_gather =
         0;  // a gather ray that is no longer goes on as a path: about as far as photons are spread

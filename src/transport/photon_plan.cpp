@@ -31,8 +31,12 @@ void fill_global_map(I const& integrator, PhotonPlan& plan) {
     PhotonView const view = integrator.visualize;
     bool const direct = gathers || view != PhotonView::None;
     plan.global_kind = direct ? ShotKind::Others : ShotKind::Indirect;
+    // Who looks at caustics, or shoots nothing else, wants no other light.
+    bool const caustics_alone = view == PhotonView::Caustic || plan.global_paths == 0;
+    plan.onward = plan.caustic_paths > 0 && !caustics_alone ? 1.0f : 0.0f;
     plan.further_in_global = direct;
-    plan.caustics_in_global = direct && view != PhotonView::Both;
+    plan.caustics_in_global =
+        direct && view != PhotonView::Both && !(plan.caustic_paths > 0 && caustics_alone);
 }
 
 }  // namespace
@@ -61,6 +65,8 @@ std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job) {
         }
     });
 }
+
+ShotKind global_shot(RenderJob const& job) { return job.photon_plan()->global_kind; }
 
 std::uint64_t paths_of_pass(RenderJob const& job, ShotKind kind) {
     PhotonPlan const* plan = job.photon_plan();

@@ -18,12 +18,12 @@ class PhotonPlan {
     float further_radius = 0;                     // … where there is a map of Shot::further
     /// The global map is made of the photons of this shot …
     ShotKind global_kind = ShotKind::Global;
-    /// … and, where it is not read at what the camera sees, of those that caustic paths leave further on. Else they have a map of their
-    /// own: they may weigh a thousandth of the others, and lie so much closer.
+    /// … and of those that caustic paths leave further on, where it is to hold all light, or they weigh as much as the others. Else they
+    /// have a map of their own: they may weigh a thousandth of the others, and lie so much closer.
     bool further_in_global = false;
     /// … and of the caustics themselves, where it is to hold all light.
     bool caustics_in_global = false;
-    /// The share of caustic paths that go on where they have landed (onward.cpp).
+    /// The share of caustic paths that go on where they have landed (onward.cpp); 0 where nobody asks for what they leave there.
     float onward = 0;
 
     /// r_i of pass i: r_1 shrinks as r^2_{i+1} = r^2_i (i + alpha) / (i + 1) (Knaus & Zwicker 2011, eq. 20), i counted from 1.
@@ -33,8 +33,8 @@ class PhotonPlan {
 /// Null where the settings' integrator shoots no photons. Radii that are not given are left 0.
 std::shared_ptr<PhotonPlan> make_photon_plan(RenderJob const& job);
 
-/// Sets the share of caustic paths that go on to what is worth their time (onward.cpp): a pure function of the job, which has to have
-/// the plan already.
+/// Sets the share of caustic paths that go on, where any do, to what is worth their time, and whether what they leave lies with the
+/// others (onward.cpp): a pure function of the job, which has to have the plan already.
 void find_onward(RenderJob const& job, PhotonPlan& plan);
 
 /// Sets radii that are 0 to what suits the scene, by the pixels' footprints where the camera looks and by how far apart photons land

@@ -33,7 +33,7 @@ void append(std::vector<Photon>& to, std::vector<Photon> const& photons) {
     to.insert(to.end(), photons.begin(), photons.end());
 }
 
-/// Both maps: shot, sorted out, and put in order.
+/// All maps: shot, sorted out, and put in order.
 bool make_maps(RenderJob const& job, std::uint64_t pass, PrepareControl const& control, PhotonMaps& maps,
                PhotonReport& report) {
     PhotonPlan const& plan = *job.photon_plan();
@@ -47,6 +47,8 @@ bool make_maps(RenderJob const& job, std::uint64_t pass, PrepareControl const& c
     report.caustic = std::move(caustic->by_source);
     report.rays.add(global->rays);
     report.rays.add(caustic->rays);
+    global->photons.reserve(global->photons.size() + (plan.further_in_global ? caustic->further.size() : 0) +
+                            (plan.caustics_in_global ? caustic->photons.size() : 0));
     if (plan.further_in_global) append(global->photons, std::exchange(caustic->further, {}));
     if (plan.caustics_in_global) append(global->photons, caustic->photons);
     auto const map_of = [](std::vector<Photon> photons, EstimateRule const& rule) {
@@ -90,13 +92,14 @@ std::optional<PassWork> prepare_pass(RenderJob const& job, std::uint64_t i, Prep
             maps->further_rule = rule_of(integrator.estimates, plan->further_radius, integrator.alpha, i);
             if (!make_maps(job, i, control, *maps, work->report)) return false;
             if (plan->caustics_in_global && plan->caustic_paths == 0 && plan->aim.casts()) {
-                maps->caustics_in_global = true;
+                maps->caustics_from_global = true;
                 maps->caustic_rule = maps->global_rule;
                 maps->caustic_rule.only_caustics = true;
             }
             auto const begun = Clock::now();
             if constexpr (requires { integrator.final_gather; })
-                if (integrator.final_gather || integrator.visualize == PhotonView::Radiance)
+                if ((integrator.final_gather && integrator.visualize == PhotonView::None) ||
+                    integrator.visualize == PhotonView::Radiance)
                     maps->irradiance =
                         IrradianceMap(job.world(), maps->global, maps->global_rule, work->report.rays);
             maps->shortest_gather = maps->irradiance.typical_radius();

@@ -121,7 +121,8 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
         for (PhotonChunk::Path const& path : chunk.paths) {
             PhotonCounts& counts = shot.by_source[world.source_of(path.light)];
             ++counts.emitted;
-            counts.stored += path.stored + path.further;
+            counts.stored += path.stored;
+            counts.further += path.further;
             ++(counts.*path.end);
         }
         shot.rays.add(chunk.rays);
@@ -135,22 +136,26 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
     return shot;
 }
 
-double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths) {
-    if (paths == 0 || !job.photon_plan()) return 0;
+PhotonsPerPath photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths) {
+    if (paths == 0 || !job.photon_plan()) return {};
     std::optional<Shot> const shot = shoot(job, kind, kPilotPass, paths, {});
-    if (!shot) return 0;
-    return static_cast<double>(shot->photons.size() + shot->further.size()) / static_cast<double>(paths);
+    if (!shot) return {};
+    auto const n = static_cast<double>(paths);
+    return {static_cast<double>(shot->photons.size()) / n, static_cast<double>(shot->further.size()) / n};
 }
 
 double expected_photons(RenderJob const& job) {
     PhotonPlan const* plan = job.photon_plan();
     if (!plan) return 0;
-    double sum = 0;
-    for (ShotKind const kind : {plan->global_kind, ShotKind::Caustic})
-        if (std::uint64_t const paths = paths_of_pass(job, kind); paths > 0)
-            sum += static_cast<double>(paths) * photons_per_path(job, kind) *
-                   (kind == ShotKind::Caustic && plan->caustics_in_global ? 2 : 1);  // they are in both maps
-    return sum;
+    auto const left = [&](ShotKind kind) {
+        std::uint64_t const paths = paths_of_pass(job, kind);
+        PhotonsPerPath const per_path = paths > 0 ? photons_per_path(job, kind) : PhotonsPerPath{};
+        auto const n = static_cast<double>(paths);
+        return PhotonsPerPath{n * per_path.photons, n * per_path.further};
+    };
+    PhotonsPerPath const caustic = left(ShotKind::Caustic);
+    double const copies = plan->caustics_in_global ? 2 : 1;
+    return left(plan->global_kind).photons + copies * caustic.photons + caustic.further;
 }
 
 TracedPath trace_light_path(RenderJob const& job, ShotKind kind, std::uint64_t pass, std::uint64_t path,

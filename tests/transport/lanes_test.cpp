@@ -178,7 +178,8 @@ TEST_CASE("in lanes: photons are those of paths that are followed alone") {
                     PhotonCounts& counts = ends[world.source_of(path.light)];
                     ++counts.emitted;
                     ++(counts.*path.end);
-                    counts.stored += path.photons.size() + path.further.size();
+                    counts.stored += path.photons.size();
+                    counts.further += path.further.size();
                     for (PhotonRecord const& r : path.photons) alone.emplace_back(r);
                     for (PhotonRecord const& r : path.further) further.emplace_back(r);
                 }

@@ -3,6 +3,9 @@
 #include "photon_plan.h"
 #include "photons.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <cstring>
 
 using namespace nephroid;
@@ -88,6 +91,7 @@ TEST_CASE("onward: both shots together leave the indirect light of paths that ar
             Settings s = shot_settings(samples(5000, 100000), color, aim);
             CAPTURE(aim);
             CAPTURE(onward_of(world, s));
+            if (aim) CHECK(onward_of(world, s) < 0.5f);
             for (Which const& which : {Which(low), Which(all)}) {
                 Mean difference;
                 Mean undivided;
@@ -111,8 +115,9 @@ TEST_CASE("onward: the share that goes on is a function of the job, and what is 
         return onward_of(world, s);
     };
     World const far = compile(box_under_glass(200));
-    CHECK(of(far, 20000, 20000) == of(far, 20000, 20000));
     CHECK(of(far, 20000, 0) == 0.0f);
+    // Who asks for caustics alone gets no other light.
+    CHECK(of(far, 0, 20000) == 0.0f);
     // Hardly any path finds the box that is not sent there: all that are sent go on.
     CHECK(of(far, 20000, 20000) == 1.0f);
     // A small ball of glass in a closed room, and as many paths towards it as in all.
@@ -121,10 +126,43 @@ TEST_CASE("onward: the share that goes on is a function of the job, and what is 
     add_sphere(room, {0, 0, -1}, 0.2f, glass(room));
     room.add(point_light({0, 0, 1.5f}, 1));
     World const small = compile(std::move(room));
-    CHECK(of(small, 20000, 20000) > 0.01f);
-    CHECK(of(small, 20000, 20000) < 0.3f);
+    tbb::global_control const allowed(tbb::global_control::max_allowed_parallelism, 7);
+    float const one = tbb::task_arena(1).execute([&] { return of(small, 20000, 20000); });
+    float const seven = tbb::task_arena(7).execute([&] { return of(small, 20000, 20000); });
+    CHECK(one == seven);
+    CHECK(one > 0.01f);
+    CHECK(one < 0.3f);
     // A thousandth of them weighs as much as others, or more.
     CHECK(of(small, 20000, 20) == 1.0f);
+}
+
+TEST_CASE("onward: who looks at caustics sees caustics alone, from a map of their own or out of the other") {
+    Scene s = mixed();
+    look(s, {0, -1.9f, 0.3f}, {0, 1, -0.6f});
+    World const world = compile(std::move(s));
+    auto const mean_of = [&](PhotonView view, int caustic_paths, bool gathers) {
+        PhotonMapIntegrator p = photon_map(4000, gathers, 0.3f, 0.3f);
+        p.estimates.nused = 0;
+        p.shooting.caustic_paths = caustic_paths;
+        p.visualize = view;
+        RenderJob const job(world, settings(p, 8, 8));
+        bool const alone = view == PhotonView::Caustic && caustic_paths > 0;
+        CHECK((job.photon_plan()->onward > 0.0f) == (caustic_paths > 0 && !alone));
+        CHECK(job.photon_plan()->caustics_in_global == !alone);
+        return film_means(world, settings(p, 8, 8), 4, 11).beauty[1];
+    };
+    auto const equal = [](Mean const& a, Mean const& b) {
+        return std::abs(a.mean() - b.mean()) < a.half_width(1e-4) + b.half_width(1e-4);
+    };
+    for (bool const gathers : {true, false}) {
+        Mean const own = mean_of(PhotonView::Caustic, 4000, gathers);
+        CHECK(own.mean() > 0);
+        CHECK(equal(own, mean_of(PhotonView::Caustic, 0, gathers)));
+        // All light, divided or not.
+        Mean const divided = mean_of(PhotonView::Global, 4000, gathers);
+        CHECK(divided.mean() > 2 * own.mean());
+        CHECK(equal(divided, mean_of(PhotonView::Global, 0, gathers)));
+    }
 }
 
 TEST_CASE("onward: a box under glass is as bright, however wide its sky") {

@@ -47,7 +47,8 @@ constexpr ShotKind kKinds[] = {ShotKind::Global, ShotKind::Others, ShotKind::Ind
 void check_counts(Shot const& shot, std::uint64_t paths) {
     PhotonCounts const all = total(shot);
     CHECK(all.emitted == paths);
-    CHECK(all.stored == shot.photons.size() + shot.further.size());
+    CHECK(all.stored == shot.photons.size());
+    CHECK(all.further == shot.further.size());
     for (PhotonCounts const& c : shot.by_source)
         CHECK(c.emitted == c.escaped + c.absorbed + c.too_long + c.landed + c.elsewhere + c.dark + c.broken);
 }

@@ -161,7 +161,7 @@ TEST_CASE("a ray meets a sphere beside Embree's tree as one in it") {
         }
         CHECK(met > n / 20);
         CHECK(other == 0);
-        CHECK(stats.rejected < n);
+        if (!c.extreme) CHECK(stats.rejected == 0);
     }
 }
 

@@ -50,7 +50,10 @@ PhotonCounts total(std::vector<PhotonCounts> const& by_light) {
 
 std::uint64_t paths_that_store(Setup const& setup, std::string const& directives, ShotKind kind,
                                std::uint64_t photons) {
-    double const stored = photons_per_path(RenderJob(setup.world, seeded(setup, directives, 1)), kind);
+    RenderJob const job(setup.world, seeded(setup, directives, 1));
+    // What a render shoots into its global map.
+    if (kind == ShotKind::Global) kind = global_shot(job);
+    double const stored = photons_per_path(job, kind).photons;
     if (!(stored > 0)) throw std::runtime_error("no photon is stored");
     return static_cast<std::uint64_t>(std::llround(static_cast<double>(photons) / stored));
 }

@@ -46,13 +46,13 @@ void photons_and_paths(Lab const& lab) {
     for (auto const& [name, kind] :
          {std::pair{"global map", ShotKind::Global}, {"caustic map", ShotKind::Caustic}}) {
         PhotonCounts const c = total(shoot(job, kind, 0, shot, {})->by_source);
-        rows.push_back({name, thousands(c.emitted), thousands(c.stored), thousands(c.landed),
-                        thousands(c.absorbed), thousands(c.escaped), thousands(c.too_long), thousands(c.dark),
-                        thousands(c.broken)});
+        rows.push_back({name, thousands(c.emitted), thousands(c.stored), thousands(c.further),
+                        thousands(c.landed), thousands(c.elsewhere), thousands(c.absorbed),
+                        thousands(c.escaped), thousands(c.too_long), thousands(c.dark), thousands(c.broken)});
     }
     page.text("What becomes of the paths of a pass:");
-    page.table({"", "emitted", "photons stored", "ended where they landed", "absorbed", "escaped", "too long",
-                "sent nothing", "not numbers"},
+    page.table({"", "emitted", "photons stored", "… further on", "ended where they landed",
+                "left to the other map's", "absorbed", "escaped", "too long", "sent nothing", "not numbers"},
                rows);
 }
 

@@ -18,11 +18,12 @@ class LightPathImage;  // light_path_image.h
 struct PhotonCounts {
     std::uint64_t emitted = 0;  // paths, whether or not their first ray carried anything
     std::uint64_t stored = 0;   // photons
+    std::uint64_t further = 0;  // … and by caustic paths that went on (Shot::further)
     // How paths ended.
     std::uint64_t escaped = 0;    // left the scene
     std::uint64_t absorbed = 0;   // by chance (roulette), or where nothing is scattered
     std::uint64_t too_long = 0;   // at the limit of bounces
-    std::uint64_t landed = 0;     // caustic paths: where they left a caustic; a share goes on from there
+    std::uint64_t landed = 0;     // caustic paths: where they left a caustic, but for the share that goes on
     std::uint64_t elsewhere = 0;  // what would follow is found by the paths of the other shot
     std::uint64_t dark = 0;       // the light sent nothing that way
     std::uint64_t broken = 0;     // the power was not a number
@@ -30,6 +31,7 @@ struct PhotonCounts {
     void add(PhotonCounts const& b) {
         emitted += b.emitted;
         stored += b.stored;
+        further += b.further;
         escaped += b.escaped;
         absorbed += b.absorbed;
         too_long += b.too_long;

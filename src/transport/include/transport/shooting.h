@@ -35,12 +35,16 @@ std::optional<Shot> shoot(RenderJob const& job, ShotKind kind, std::uint64_t pas
 
 /// The numbers of this pass are those of none that is rendered: what is to be known beforehand is shot in it.
 inline constexpr std::uint64_t kPilotPass = std::uint64_t{1} << 40;
-/// Photons that a path leaves, further ones included, in the mean over the first so many of the pilot's; 0 where there is nothing to
-/// shoot.
-double photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths = 16384);
+/// Photons that a path leaves, in the mean over the first so many of the pilot's; 0 where there is nothing to shoot.
+struct PhotonsPerPath {
+    double photons = 0, further = 0;  // as in a Shot
+};
+PhotonsPerPath photons_per_path(RenderJob const& job, ShotKind kind, std::uint64_t paths = 16384);
 /// … and that the maps of a pass are going to hold, about.
 double expected_photons(RenderJob const& job);
 
+/// Which shot the global map of a job is made of, which has to shoot photons.
+ShotKind global_shot(RenderJob const& job);
 /// How many paths a pass of the job shoots into the global or the caustic map: 0 where it makes none.
 std::uint64_t paths_of_pass(RenderJob const& job, ShotKind kind);
 
