@@ -205,7 +205,8 @@ TEST_CASE("light that passes spheres in part is the same beside Embree's tree") 
     RayStats stats;
     Rays random(13);
     std::uint64_t partly = 0;
-    for (std::uint64_t i = 0; i < tries(5'000); ++i) {
+    std::uint64_t const n = tries(5'000);
+    for (std::uint64_t i = 0; i < n; ++i) {
         SurfaceHit from;
         if (!worlds.few.intersect(some_ray(kPassages, worlds.few, random), kInfinity, RayKind::Bounce, stats,
                                   from))
@@ -218,7 +219,7 @@ TEST_CASE("light that passes spheres in part is the same beside Embree's tree") 
         REQUIRE(share == worlds.embree.transmittance(from, to, stats));
         partly += share > 0.0f && share < 1.0f ? 1 : 0;
     }
-    CHECK(partly > 100);
+    CHECK(partly > n / 50);
 }
 
 TEST_CASE("of a sphere and a triangle at one distance a packet's rays meet the one of the least number") {
