@@ -14,7 +14,8 @@ command -v valgrind >/dev/null || {
     exit 1
 }
 
-# SCENE, and the options that make it a small render.
+# SCENE, and the options that make it a small render: of one pass, since time decides how many make a batch, and each batch keeps what a
+# stop goes back to.
 renders=(
     "cornell-box --integrator path --color rgb"
     "cornell-box --integrator path --color spectral"
@@ -23,8 +24,8 @@ renders=(
     "instances --integrator path --color spectral"
     "iced-juice --integrator path --color spectral"
     "cornell-spheres --integrator whitted --color rgb"
-    "cornell-spheres --integrator sppm --color rgb --set photonsperiteration=2000 --set radius=20"
-    "cornell-spheres --integrator photonmap --color rgb --set indirectphotons=4000 --set finalgathersamples=4 --set radius=40"
+    "cornell-spheres --integrator sppm --color rgb --set photonsperiteration=16000 --set radius=20"
+    "cornell-spheres --integrator photonmap --color rgb --set indirectphotons=16000 --set finalgathersamples=4 --set radius=40"
     "cup --integrator lightpath --color spectral"
 )
 
@@ -32,7 +33,7 @@ count() { # count SCENE OPTION…: instructions
     local scene=$1
     shift
     valgrind --tool=callgrind --callgrind-out-file=/dev/null "$nephroid" render "$scenes/$scene.pbrt" "$@" \
-        --size 48x48 --spp 8 --threads 1 --seed 1 --quiet -o "$folder/p.pfm" 2>"$folder/log" >"$folder/out" || {
+        --size 136x136 --spp 1 --threads 1 --seed 1 --quiet -o "$folder/p.pfm" 2>"$folder/log" >"$folder/out" || {
         cat "$folder/log"
         return 1
     }
